@@ -1,0 +1,101 @@
+#include "dem/assembly/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "dem/assembly/rattlers.h"
+
+namespace ddem {
+namespace {
+
+Bonds select(const Bonds& bonds, const std::vector<char>& keep) {
+  Bonds out;
+  for (std::size_t c = 0; c < bonds.size(); ++c) {
+    if (!keep[c]) continue;
+    out.i.push_back(bonds.i[c]);
+    out.j.push_back(bonds.j[c]);
+    out.nx.push_back(bonds.nx[c]);
+    out.ny.push_back(bonds.ny[c]);
+    out.length.push_back(bonds.length[c]);
+    out.arm_i.push_back(bonds.arm_i[c]);
+    out.arm_j.push_back(bonds.arm_j[c]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density) {
+  Assembly a;
+  const std::size_t n = packing.size();
+  a.rattlers = find_rattlers(n, bonds);
+  std::vector<char> is_rattler(n, 0);
+  for (const int d : a.rattlers) is_rattler[d] = 1;
+  std::vector<char> keep(bonds.size());
+  for (std::size_t c = 0; c < bonds.size(); ++c) keep[c] = !is_rattler[bonds.i[c]] && !is_rattler[bonds.j[c]];
+  a.bonds = select(bonds, keep);
+
+  std::size_t networks = 0;
+  for (const auto& component : connected_components(n, a.bonds)) {
+    if (component.size() > 1 || !is_rattler[component.front()]) ++networks;
+  }
+  if (networks != 1) {
+    throw std::invalid_argument(
+        networks == 0 ? "the assembly has no bonded network: every disc has fewer than two bonds; raise bond_gap"
+                      : "the assembly falls apart into " + std::to_string(networks) +
+                            " networks without a bond between them; raise bond_gap or coordination");
+  }
+
+  a.thickness = thickness;
+  a.density = density;
+  a.mass.resize(n);
+  a.inertia.resize(n);
+  a.volume.resize(n);
+  for (std::size_t d = 0; d < n; ++d) {
+    const double r = packing.radius[d];
+    a.volume[d] = std::numbers::pi * r * r * thickness;
+    a.mass[d] = density * a.volume[d];
+    a.inertia[d] = 0.5 * a.mass[d] * r * r;
+  }
+  a.packing = std::move(packing);
+  return a;
+}
+
+Bonds cut_at_edges(const Packing& packing, const Bonds& bonds, bool cut_x, bool cut_y) {
+  std::vector<char> keep(bonds.size());
+  for (std::size_t c = 0; c < bonds.size(); ++c) {
+    const double dx = packing.x[bonds.j[c]] - packing.x[bonds.i[c]];
+    const double dy = packing.y[bonds.j[c]] - packing.y[bonds.i[c]];
+    // A bond crosses an edge when its direct vector is not the vector to the bonded image.
+    const double tolerance = 1e-6 * bonds.length[c];
+    const bool crosses_x = std::abs(dx - bonds.nx[c] * bonds.length[c]) > tolerance;
+    const bool crosses_y = std::abs(dy - bonds.ny[c] * bonds.length[c]) > tolerance;
+    keep[c] = !(cut_x && crosses_x) && !(cut_y && crosses_y);
+  }
+  return select(bonds, keep);
+}
+
+double solid_fraction(const Assembly& a) {
+  return std::accumulate(a.volume.begin(), a.volume.end(), 0.0) / (a.area() * a.thickness);
+}
+
+double bulk_density(const Assembly& a) { return a.density * solid_fraction(a); }
+
+std::vector<int> edge_discs(const Packing& packing, Edge edge, double band) {
+  const bool horizontal = edge == Edge::left || edge == Edge::right;
+  const double sign = edge == Edge::left || edge == Edge::bottom ? 1.0 : -1.0;
+  const std::vector<double>& coordinate = horizontal ? packing.x : packing.y;
+  double outermost = sign * coordinate.front();
+  for (const double c : coordinate) outermost = std::min(outermost, sign * c);
+  std::vector<int> discs;
+  for (std::size_t d = 0; d < packing.size(); ++d) {
+    if (sign * coordinate[d] <= outermost + band) discs.push_back(static_cast<int>(d));
+  }
+  return discs;
+}
+
+}  // namespace ddem

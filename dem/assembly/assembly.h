@@ -1,0 +1,41 @@
+#pragma once
+// An assembly: discs with mass, and the bonds between them that carry force.
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/core/bonds.h"
+#include "dem/core/packing.h"
+
+namespace ddem {
+
+struct Assembly {
+  Packing packing;
+  Bonds bonds;             ///< without the bonds of rattlers
+  double thickness = 1.0;  ///< m, out of plane
+  double density = 0.0;    ///< of a disc, kg/m3
+  std::vector<double> mass, inertia, volume;  ///< kg, kg m2, m3: m = rho pi r^2 h, I = m r^2 / 2
+  /// Discs on fewer than two bonds (found by repeated peeling): they weigh but do not move.
+  std::vector<int> rattlers;
+
+  std::size_t size() const { return packing.size(); }
+  double area() const { return packing.length * packing.width; }
+};
+
+/// Takes the bonds of rattlers out and computes masses.
+/// Throws std::invalid_argument if what is left is not one connected network.
+Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density);
+
+/// The same packing cut free: the bonds that reach through the period in x (and y) are left out.
+/// Used for strips made from a periodic packing.
+Bonds cut_at_edges(const Packing& packing, const Bonds& bonds, bool cut_x, bool cut_y);
+
+double solid_fraction(const Assembly& assembly);
+/// Total mass over length * width * thickness, kg/m3.
+double bulk_density(const Assembly& assembly);
+
+enum class Edge { left, right, bottom, top };
+/// Discs whose centre lies within `band` (m) of the outermost centre at that edge, in ascending order.
+std::vector<int> edge_discs(const Packing& packing, Edge edge, double band);
+
+}  // namespace ddem

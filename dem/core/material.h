@@ -1,0 +1,58 @@
+#pragma once
+// Parameters of the contacts and of the discs' material, and the compliance D of a disc.
+
+namespace ddem {
+
+enum class Kinematics {
+  linear,    ///< small displacement: the geometry of the bonds is that of the start
+  nonlinear  ///< current geometry, incremental shear, finite rotation
+};
+
+struct ContactParameters {
+  double normal_stiffness = 0.0;  ///< k_n, N/m
+  double stiffness_ratio = 0.0;   ///< k_t / k_n; at 0 the discs' rotations drop out
+  Kinematics kinematics = Kinematics::linear;
+
+  double shear_stiffness() const { return stiffness_ratio * normal_stiffness; }
+  bool has_rotation() const { return stiffness_ratio != 0.0; }
+};
+
+enum class Scheme {
+  none,   ///< plain DEM
+  lagged  ///< the published scheme: the strains come from the forces of the step before
+};
+
+/// Which overlaps the strain corrects and which forces make the stress (theory section 1).
+enum class Correction {
+  normal,             ///< N: normal overlap corrected; stress from normal and tangential forces (published)
+  full,               ///< F: both corrected, symmetrised stress; derives from an energy
+  normal_only_stress  ///< NN: normal overlap corrected, stress from normal forces; derives from an energy
+};
+
+enum class Plane { stress, strain };
+
+struct DeformationParameters {
+  Scheme scheme = Scheme::none;
+  Correction correction = Correction::normal;
+  double young_modulus = 0.0;  ///< E_p of the disc, Pa
+  double poisson_ratio = 0.0;  ///< nu_p of the disc
+  Plane plane = Plane::stress;
+
+  bool active() const { return scheme != Scheme::none; }
+};
+
+/// Isotropic compliance of a disc in the plane:
+/// eps_xx = direct s_xx + coupling s_yy, eps_xy = shear s_xy (tensor components).
+struct Compliance {
+  double direct = 0.0, coupling = 0.0, shear = 0.0;  // 1/Pa
+};
+
+/// Plane strain replaces (E, nu) by (E/(1-nu^2), nu/(1-nu)); theory section 2.
+inline Compliance disc_compliance(const DeformationParameters& p) {
+  const bool strain = p.plane == Plane::strain;
+  const double nu = strain ? p.poisson_ratio / (1.0 - p.poisson_ratio) : p.poisson_ratio;
+  const double e = strain ? p.young_modulus / (1.0 - p.poisson_ratio * p.poisson_ratio) : p.young_modulus;
+  return {1.0 / e, -nu / e, (1.0 + nu) / e};
+}
+
+}  // namespace ddem

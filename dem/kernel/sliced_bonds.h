@@ -1,0 +1,36 @@
+#pragma once
+// Bonds laid out for the gather loop: sliced ELLPACK. Eight successive discs make a slice; row r of a slice holds the
+// r-th bond of each of its discs, so that one SIMD lane is one disc and every disc sums its own bonds in a fixed order
+// (the same bits for any number of threads). A bond is stored twice, once from either end, with its normal turned.
+// A disc with fewer bonds than its slice has rows is filled up with bonds to itself with zero arms: they give no force.
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/core/bonds.h"
+#include "dem/core/packing.h"
+#include "dem/kernel/aligned.h"
+
+namespace ddem {
+
+constexpr int kLanes = 8;
+
+struct SlicedBonds {
+  int slices = 0;
+  std::vector<std::int32_t> row_begin;     ///< slices + 1: first row of each slice
+  AlignedVector<std::int32_t> neighbour;   ///< rows * kLanes, index of the other disc
+  AlignedVector<double> nx, ny;            ///< unit normal towards the neighbour
+  AlignedVector<double> length;            ///< distance of the centres at the start, m
+  AlignedVector<double> arm_own, arm_other;
+
+  std::size_t rows() const { return neighbour.size() / kLanes; }
+};
+
+/// `position[d]` is the place of disc d in the solver's order.
+SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position);
+
+/// An order of the discs in which neighbours are near in memory: bands across the strip's short side.
+/// Returns position[d].
+std::vector<int> locality_order(const Packing& packing);
+
+}  // namespace ddem

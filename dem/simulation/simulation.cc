@@ -1,0 +1,227 @@
+#include "dem/simulation/simulation.h"
+
+#include <algorithm>
+#include <barrier>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+
+#include "dem/simulation/energy.h"
+#include "dem/simulation/stepper.h"
+
+namespace ddem {
+namespace {
+
+constexpr long kCheckEvery = 16;     // steps between looks at divergence
+constexpr int kAudits = 50;          // energy audits a run
+constexpr double kDivergence = 1e3;  // times the largest displacement that the load can have put in
+
+void check_input(const Assembly& a, const SimulationInput& in) {
+  if (!(in.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
+  if (in.steps < 0) throw std::invalid_argument("the number of steps must not be negative");
+  if (in.sample_every < 1) throw std::invalid_argument("sample_every must be at least 1");
+  if (in.threads < 1) throw std::invalid_argument("threads must be at least 1");
+  for (const auto* v : {&in.initial.ux, &in.initial.uy, &in.initial.theta, &in.initial.vx, &in.initial.vy, &in.initial.omega}) {
+    if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("an initial state has not one value a disc");
+  }
+  for (const auto* v : {&in.held.x, &in.held.y, &in.held.theta}) {
+    if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("a mask of held discs has not one value a disc");
+  }
+  const auto check_discs = [&](const std::vector<int>& discs) {
+    if (discs.empty()) throw std::invalid_argument("a receiver or a driven edge has no disc");
+    for (const int d : discs) {
+      if (d < 0 || d >= static_cast<int>(a.size())) throw std::invalid_argument("disc index out of range");
+    }
+  };
+  for (const Receiver& r : in.receivers) check_discs(r.discs);
+  if (in.drive) check_discs(in.drive->discs);
+}
+
+double largest(const std::vector<double>& v) {
+  double m = 0.0;
+  for (const double x : v) m = std::max(m, std::abs(x));
+  return m;
+}
+
+/// No stable run exceeds this by much: what was put in at the start, by the drive, or by the initial velocities.
+double divergence_bound(const SimulationInput& in) {
+  const double start = std::hypot(largest(in.initial.ux), largest(in.initial.uy));
+  const double drive = in.drive ? std::abs(in.drive->amplitude) : 0.0;
+  const double speed = std::hypot(largest(in.initial.vx), largest(in.initial.vy));
+  const double bound = start + drive + speed * in.time_step * static_cast<double>(in.steps);
+  return bound > 0.0 ? kDivergence * bound : HUGE_VAL;
+}
+
+class Recorder {
+ public:
+  Recorder(const SimulationInput& in, const Stepper& stepper) : in_(in), stepper_(stepper) {
+    const std::size_t receivers = in.receivers.size(), samples = static_cast<std::size_t>(in.steps / in.sample_every + 1);
+    signals_.time.reserve(samples);
+    for (auto* s : {&signals_.ux, &signals_.uy, &signals_.theta}) {
+      s->resize(receivers);
+      for (auto& values : *s) values.reserve(samples);
+    }
+  }
+
+  void sample() {
+    if (stepper_.step() % in_.sample_every != 0) return;
+    const StepData& d = stepper_.data();
+    signals_.time.push_back(static_cast<double>(stepper_.step()) * in_.time_step);
+    for (std::size_t r = 0; r < in_.receivers.size(); ++r) {
+      double ux = 0.0, uy = 0.0, theta = 0.0;
+      for (const int disc : in_.receivers[r].discs) {
+        const int p = stepper_.place_of(disc);
+        ux += d.ux[p];
+        uy += d.uy[p];
+        if (in_.contact.has_rotation()) theta += d.theta[p];
+      }
+      const double n = static_cast<double>(in_.receivers[r].discs.size());
+      signals_.ux[r].push_back(ux / n);
+      signals_.uy[r].push_back(uy / n);
+      signals_.theta[r].push_back(theta / n);
+    }
+  }
+
+  Signals take() { return std::move(signals_); }
+
+ private:
+  const SimulationInput& in_;
+  const Stepper& stepper_;
+  Signals signals_;
+};
+
+/// Follows the leapfrog invariant. After a step the stepper holds u_{n+1} in the current buffers and u_n in the others.
+class DriftMonitor {
+ public:
+  DriftMonitor(const Assembly& a, const SimulationInput& in, const Stepper& s)
+      : audit_(a, in.contact, in.deformation, s.order()), stepper_(s) {
+    active_ = in.contact.kinematics == Kinematics::linear;
+    every_ = std::max<long>(1, in.steps / kAudits);
+    if (in.drive) first_ = static_cast<long>(std::ceil(in.drive->duration / in.time_step)) + 1;
+  }
+
+  void after_step() {
+    const long n = stepper_.step();
+    if (!active_ || n < first_ || (have_reference_ && n % every_ != 0)) return;
+    const StepData& d = stepper_.data();
+    // Strains in use in the step just done are in the other buffer now.
+    const double e = audit_.energy({d.ux_next, d.uy_next, d.theta_next}, {d.ux, d.uy, d.theta}, {d.vx, d.vy, d.omega},
+                                   {d.exx_next, d.eyy_next, d.exy_next});
+    if (!have_reference_) {
+      reference_ = e;
+      have_reference_ = true;
+    } else if (reference_ > 0.0) {
+      drift_ = std::max(drift_, std::abs(e / reference_ - 1.0));
+    }
+  }
+
+  std::optional<double> drift() const {
+    return active_ && have_reference_ && std::isfinite(drift_) ? std::optional(drift_) : std::nullopt;
+  }
+
+ private:
+  EnergyAudit audit_;
+  const Stepper& stepper_;
+  bool active_ = false, have_reference_ = false;
+  long every_ = 1, first_ = 1;
+  double reference_ = 0.0, drift_ = 0.0;
+};
+
+/// What happens between two steps, on one thread; returns false to stop.
+class Overseer {
+ public:
+  Overseer(const Assembly& a, const SimulationInput& in, Stepper& stepper, SimulationResult& result)
+      : in_(in), stepper_(stepper), result_(result), recorder_(in, stepper), drift_(a, in, stepper),
+        bound_(divergence_bound(in)), report_every_(std::max<long>(kCheckEvery, in.steps / 200)) {
+    recorder_.sample();
+  }
+
+  bool finish_step() {
+    stepper_.finish_step();
+    const long n = stepper_.step();
+    if (n % kCheckEvery == 0 || n == in_.steps) {
+      if (const int disc = stepper_.diverged_disc(bound_); disc >= 0) {
+        result_.divergence = Divergence{n, disc};
+        return false;
+      }
+    }
+    recorder_.sample();
+    drift_.after_step();
+    if (in_.on_progress && n % report_every_ == 0 &&
+        !in_.on_progress(static_cast<double>(n) / static_cast<double>(in_.steps))) {
+      result_.stopped = true;
+      return false;
+    }
+    return n < in_.steps;
+  }
+
+  void finish() {
+    result_.signals = recorder_.take();
+    result_.energy_drift = drift_.drift();
+    result_.steps_done = stepper_.step();
+    result_.final_state = stepper_.state();
+  }
+
+ private:
+  const SimulationInput& in_;
+  Stepper& stepper_;
+  SimulationResult& result_;
+  Recorder recorder_;
+  DriftMonitor drift_;
+  double bound_;
+  long report_every_;
+};
+
+void run_one_thread(Stepper& stepper, Overseer& overseer) {
+  do {
+    stepper.advance(0, stepper.slices());
+  } while (overseer.finish_step());
+}
+
+/// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the step.
+void run_threads(Stepper& stepper, Overseer& overseer, int threads) {
+  bool go_on = true;
+  std::barrier barrier(threads, [&]() noexcept { go_on = overseer.finish_step(); });
+  const auto work = [&](int id) {
+    const int begin = static_cast<int>(static_cast<long>(stepper.slices()) * id / threads);
+    const int end = static_cast<int>(static_cast<long>(stepper.slices()) * (id + 1) / threads);
+    do {
+      stepper.advance(begin, end);
+      barrier.arrive_and_wait();
+    } while (go_on);
+  };
+  std::vector<std::jthread> team;
+  for (int id = 1; id < threads; ++id) team.emplace_back(work, id);
+  work(0);
+}
+
+}  // namespace
+
+double EdgeDrive::displacement(double time) const {
+  if (time < 0.0 || time >= duration) return 0.0;
+  const double s = std::sin(std::numbers::pi * time / duration);
+  return amplitude * s * s;
+}
+
+SimulationResult simulate(const Assembly& assembly, const SimulationInput& input) {
+  check_input(assembly, input);
+  SimulationResult result;
+  Stepper stepper(assembly, input, best_instruction_set());
+  Overseer overseer(assembly, input, stepper, result);
+  const auto start = std::chrono::steady_clock::now();
+  if (input.steps > 0) {
+    const int threads = std::min(input.threads, std::max(1, stepper.slices()));
+    if (threads == 1) {
+      run_one_thread(stepper, overseer);
+    } else {
+      run_threads(stepper, overseer, threads);
+    }
+  }
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  overseer.finish();
+  return result;
+}
+
+}  // namespace ddem

@@ -1,0 +1,182 @@
+#include "dem/statics/moduli.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "dem/statics/static_solver.h"
+
+namespace ddem {
+namespace {
+
+constexpr std::array<MacroStrain, 3> kUnitStrains = {MacroStrain{1, 0, 0}, MacroStrain{0, 1, 0}, MacroStrain{0, 0, 1}};
+
+struct Force {
+  double x = 0.0, y = 0.0;
+};
+
+Force bond_force(const Bonds& b, const Operators& op, const StaticState& state, std::size_t c) {
+  const double fn = state.bond_forces[op.rows_per_bond * c];
+  const double ft = op.rows_per_bond == 2 ? state.bond_forces[2 * c + 1] : 0.0;
+  return {fn * b.nx[c] - ft * b.ny[c], fn * b.ny[c] + ft * b.nx[c]};
+}
+
+/// Interval [from, to] of x between two inner sections.
+struct Section {
+  double from, to;
+};
+
+/// sum_c L n (x) F of the parts of the bonds inside the interval, over its volume: the mean stress between two sections.
+Eigen::Vector3d mean_stress(const Assembly& a, const Operators& op, const StaticState& state, const Section& s) {
+  Eigen::Vector3d stress = Eigen::Vector3d::Zero();
+  for (std::size_t c = 0; c < a.bonds.size(); ++c) {
+    const double lx = a.bonds.length[c] * a.bonds.nx[c], ly = a.bonds.length[c] * a.bonds.ny[c];
+    const double x0 = a.packing.x[a.bonds.i[c]], x1 = x0 + lx;
+    const double inside = std::min(std::max(x0, x1), s.to) - std::max(std::min(x0, x1), s.from);
+    double share = std::abs(lx) > 0.0 ? std::clamp(inside / std::abs(lx), 0.0, 1.0) : 1.0;
+    if (lx == 0.0 && (x0 < s.from || x0 > s.to)) share = 0.0;
+    const Force f = bond_force(a.bonds, op, state, c);
+    stress += share * Eigen::Vector3d(lx * f.x, ly * f.y, 0.5 * (lx * f.y + ly * f.x));
+  }
+  return stress / ((s.to - s.from) * a.packing.width * a.thickness);
+}
+
+/// The strip cut into quarters: measured between the sections at 1/5 and 4/5 of its length, each the mean of the discs
+/// within three mean radii (a single column would carry the noise of single discs).
+class StripGauge {
+ public:
+  explicit StripGauge(const Packing& p) : packing_(p) {
+    const auto [lo, hi] = std::minmax_element(p.x.begin(), p.x.end());
+    const double band = 3.0 * mean_radius(p);
+    left_ = discs_near(*lo + 0.2 * (*hi - *lo), band);
+    right_ = discs_near(*lo + 0.8 * (*hi - *lo), band);
+    section_ = {mean(left_, p.x), mean(right_, p.x)};
+    if (left_.empty() || right_.empty() || !(section_.to - section_.from > 2.0 * band)) {
+      throw std::invalid_argument("the strip is too short for a static measurement between inner sections; use at least 30 discs along x");
+    }
+  }
+  const Section& section() const { return section_; }
+
+  /// Mean slope d(value)/dx between the sections; value = affine part * x + fluctuation.
+  double slope(const StaticState& state, int dofs_per_disc, int component) const {
+    const auto fluctuation = [&](const std::vector<int>& discs) {
+      double sum = 0.0;
+      for (const int d : discs) sum += state.fluctuation[dofs_per_disc * d + component];
+      return sum / static_cast<double>(discs.size());
+    };
+    return (fluctuation(right_) - fluctuation(left_)) / (section_.to - section_.from);
+  }
+
+ private:
+  std::vector<int> discs_near(double x, double band) const {
+    std::vector<int> discs;
+    for (std::size_t d = 0; d < packing_.size(); ++d) {
+      if (std::abs(packing_.x[d] - x) <= band) discs.push_back(static_cast<int>(d));
+    }
+    return discs;
+  }
+  double mean(const std::vector<int>& discs, const std::vector<double>& value) const {
+    double sum = 0.0;
+    for (const int d : discs) sum += value[d];
+    return discs.empty() ? 0.0 : sum / static_cast<double>(discs.size());
+  }
+
+  const Packing& packing_;
+  std::vector<int> left_, right_;
+  Section section_{};
+};
+
+HeldDofs hold_ends(const Packing& p, double edge_band, bool hold_y_and_theta) {
+  HeldDofs held;
+  held.x.assign(p.size(), 0);
+  if (hold_y_and_theta) {
+    held.y.assign(p.size(), 0);
+    held.theta.assign(p.size(), 0);
+  }
+  for (const Edge e : {Edge::left, Edge::right}) {
+    for (const int d : edge_discs(p, e, edge_band)) {
+      held.x[d] = 1;
+      if (hold_y_and_theta) held.y[d] = held.theta[d] = 1;
+    }
+  }
+  return held;
+}
+
+/// -eps_yy between the sections: slope of u_y over y by least squares over the discs there.
+double lateral_strain(const Packing& p, const StaticState& state, int dofs_per_disc, const Section& s) {
+  double n = 0, sy = 0, su = 0, syy = 0, syu = 0;
+  for (std::size_t d = 0; d < p.size(); ++d) {
+    if (p.x[d] < s.from || p.x[d] > s.to) continue;
+    const double y = p.y[d], u = state.fluctuation[dofs_per_disc * d + 1];
+    n += 1, sy += y, su += u, syy += y * y, syu += y * u;
+  }
+  return (n * syu - sy * su) / (n * syy - sy * sy);
+}
+
+}  // namespace
+
+IsotropicModuli isotropic_part(const PlaneStiffness& c) {
+  const double c12 = 0.5 * (c(0, 1) + c(1, 0));
+  return {(c(0, 0) + c(1, 1) + 2.0 * c12) / 4.0, (c(0, 0) + c(1, 1) - 2.0 * c12 + 4.0 * c(2, 2)) / 8.0};
+}
+
+PlaneStiffness homogenise_cell(const Assembly& a, const ContactParameters& contact,
+                               const DeformationParameters& deformation) {
+  if (a.packing.period.x <= 0.0 || a.packing.period.y <= 0.0) {
+    throw std::invalid_argument("homogenisation of a cell needs periods in x and y");
+  }
+  const StaticSolver solver(a, contact, deformation, {});
+  PlaneStiffness c;
+  for (int k = 0; k < 3; ++k) {
+    const StaticState state = solver.solve(kUnitStrains[k]);
+    Eigen::Vector3d stress = Eigen::Vector3d::Zero();
+    for (std::size_t b = 0; b < a.bonds.size(); ++b) {
+      const Force f = bond_force(a.bonds, solver.operators(), state, b);
+      const double lx = a.bonds.length[b] * a.bonds.nx[b], ly = a.bonds.length[b] * a.bonds.ny[b];
+      stress += Eigen::Vector3d(lx * f.x, ly * f.y, 0.5 * (lx * f.y + ly * f.x));
+    }
+    c.col(k) = stress / (a.packing.period.x * a.packing.period.y * a.thickness);
+  }
+  return c;
+}
+
+PlaneStiffness homogenise_strip(const Assembly& a, const ContactParameters& contact,
+                                const DeformationParameters& deformation, double edge_band) {
+  const StaticSolver solver(a, contact, deformation, hold_ends(a.packing, edge_band, true));
+  const StripGauge gauge(a.packing);
+  const int dofs = solver.operators().dofs_per_disc;
+  Eigen::Matrix3d strain, stress;
+  for (int k = 0; k < 3; ++k) {
+    const StaticState state = solver.solve(kUnitStrains[k]);
+    // The affine shear moves u_x by y/2 and u_y by x/2; the fluctuation adds to the part along x.
+    strain.col(k) = Eigen::Vector3d(kUnitStrains[k].xx + gauge.slope(state, dofs, 0), kUnitStrains[k].yy,
+                                    kUnitStrains[k].xy + gauge.slope(state, dofs, 1));
+    stress.col(k) = mean_stress(a, solver.operators(), state, gauge.section());
+  }
+  const PlaneStiffness c = stress * strain.inverse();
+  return 0.5 * (c + c.transpose());
+}
+
+double StripTension::bar_velocity() const { return std::sqrt(axial_stiffness / mass_per_length); }
+
+StripTension pull_strip(const Assembly& a, const ContactParameters& contact,
+                        const DeformationParameters& deformation, double edge_band) {
+  const StaticSolver solver(a, contact, deformation, hold_ends(a.packing, edge_band, false));
+  const StripGauge gauge(a.packing);
+  const int dofs = solver.operators().dofs_per_disc;
+  const StaticState state = solver.solve({1, 0, 0});
+  const double strain = 1.0 + gauge.slope(state, dofs, 0);
+  const double force = mean_stress(a, solver.operators(), state, gauge.section())[0] * a.packing.width * a.thickness;
+  return {force / strain, bulk_density(a) * a.packing.width * a.thickness,
+          -lateral_strain(a.packing, state, dofs, gauge.section()) / strain};
+}
+
+DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double bulk_density) {
+  const PlaneStiffness compliance = c.inverse();
+  return {std::sqrt(c(0, 0) / bulk_density), std::sqrt(c(2, 2) / bulk_density),
+          std::sqrt(1.0 / (compliance(0, 0) * bulk_density))};
+}
+
+}  // namespace ddem

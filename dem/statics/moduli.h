@@ -1,0 +1,52 @@
+#pragma once
+// Effective plane moduli from static solves: what the wave speeds of an assembly are compared with.
+// Moduli are plane moduli divided by the thickness (Pa for unit thickness).
+
+#include <Eigen/Core>
+
+#include "dem/assembly/assembly.h"
+#include "dem/core/material.h"
+
+namespace ddem {
+
+/// Rows and columns xx, yy, xy; engineering shear. Symmetric for every correction that derives from an energy.
+using PlaneStiffness = Eigen::Matrix3d;
+
+/// Isotropic plane elasticity: E = 4KG/(K+G), nu = (K-G)/(K+G).
+struct IsotropicModuli {
+  double bulk = 0.0, shear = 0.0;
+  double young() const { return 4.0 * bulk * shear / (bulk + shear); }
+  double poisson() const { return (bulk - shear) / (bulk + shear); }
+};
+
+/// The isotropic part (average over rotations): K = (C11 + C22 + 2 C12)/4, G = (C11 + C22 - 2 C12 + 4 C66)/8,
+/// C12 the mean of C12 and C21.
+IsotropicModuli isotropic_part(const PlaneStiffness& c);
+
+/// Homogenised stiffness of a cell periodic in x and y (packing.period both set): three strains, volume-averaged
+/// stress sigma = 1/(A h) sum_c L n (x) F.
+PlaneStiffness homogenise_cell(const Assembly& assembly, const ContactParameters& contact,
+                               const DeformationParameters& deformation);
+
+/// The strip periodic in y only: the discs of both end bands follow the affine motion, strain and stress are measured
+/// between two inner sections, away from the ends.
+PlaneStiffness homogenise_strip(const Assembly& assembly, const ContactParameters& contact,
+                                const DeformationParameters& deformation, double edge_band);
+
+/// The free strip pulled at its ends (their u_x held, u_y free), measured between two inner sections.
+struct StripTension {
+  double axial_stiffness = 0.0;      ///< EA: force over strain, N
+  double mass_per_length = 0.0;      ///< kg/m
+  double lateral_contraction = 0.0;  ///< -eps_yy / eps_xx
+  double bar_velocity() const;       ///< sqrt(EA / mass per length): no area enters
+};
+StripTension pull_strip(const Assembly& assembly, const ContactParameters& contact,
+                        const DeformationParameters& deformation, double edge_band);
+
+/// Speeds of waves along x in a continuum of that stiffness: P from C11, S from C66, bar from 1/S11.
+struct DirectionalSpeeds {
+  double p = 0.0, s = 0.0, bar = 0.0;
+};
+DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double bulk_density);
+
+}  // namespace ddem

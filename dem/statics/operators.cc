@@ -1,0 +1,116 @@
+#include "dem/statics/operators.h"
+
+#include <vector>
+
+namespace ddem {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+SparseMatrix sparse(Eigen::Index rows, Eigen::Index cols, const Triplets& t) {
+  SparseMatrix m(rows, cols);
+  m.setFromTriplets(t.begin(), t.end());
+  return m;
+}
+
+/// Rows of C: u_n = n.(u_j - u_i), u_t = t.(u_j - u_i) - a_i theta_i - a_j theta_j, t = (-n_y, n_x).
+void add_overlap_rows(Triplets& t, const Bonds& b, int c, const Operators& op) {
+  const int row = op.rows_per_bond * c;
+  const int i = op.dofs_per_disc * b.i[c], j = op.dofs_per_disc * b.j[c];
+  const double nx = b.nx[c], ny = b.ny[c];
+  t.insert(t.end(), {{row, i, -nx}, {row, i + 1, -ny}, {row, j, nx}, {row, j + 1, ny}});
+  if (op.rows_per_bond == 1) return;
+  t.insert(t.end(), {{row + 1, i, ny}, {row + 1, i + 1, -nx}, {row + 1, j, -ny}, {row + 1, j + 1, nx}});
+  t.insert(t.end(), {{row + 1, i + 2, -b.arm_i[c] / op.length_scale}, {row + 1, j + 2, -b.arm_j[c] / op.length_scale}});
+}
+
+/// What a uniform strain of one disc adds to the overlaps of a bond: a n.eps.n and a t.eps.n.
+struct StrainRows {
+  std::array<double, 3> normal, tangential;
+};
+
+StrainRows strain_rows(double nx, double ny, double arm) {
+  return {{arm * nx * nx, arm * ny * ny, arm * 2.0 * nx * ny}, {-arm * nx * ny, arm * nx * ny, arm * (nx * nx - ny * ny)}};
+}
+
+void add_deformation(Operators& op, const Assembly& a, const DeformationParameters& deformation) {
+  const Bonds& b = a.bonds;
+  const Eigen::Index rows = op.overlap.rows(), strains = 3 * static_cast<Eigen::Index>(a.size());
+  const bool tangential = op.rows_per_bond == 2;
+  const bool correct_slip = tangential && deformation.correction == Correction::full;
+  const bool stress_of_shear = tangential && deformation.correction != Correction::normal_only_stress;
+  Triplets g, s, vc;
+  for (int c = 0; c < static_cast<int>(b.size()); ++c) {
+    for (const bool second : {false, true}) {
+      const int disc = second ? b.j[c] : b.i[c];
+      const StrainRows r = strain_rows(b.nx[c], b.ny[c], (second ? b.arm_j[c] : b.arm_i[c]) / op.length_scale);
+      for (int k = 0; k < 3; ++k) {
+        const int row = op.rows_per_bond * c;
+        g.emplace_back(row, 3 * disc + k, r.normal[k]);
+        s.emplace_back(3 * disc + k, row, r.normal[k]);
+        if (correct_slip) g.emplace_back(row + 1, 3 * disc + k, r.tangential[k]);
+        if (stress_of_shear) s.emplace_back(3 * disc + k, row + 1, r.tangential[k]);
+      }
+    }
+  }
+  const Compliance d = disc_compliance(deformation);
+  const double det = d.direct * d.direct - d.coupling * d.coupling;
+  for (int p = 0; p < static_cast<int>(a.size()); ++p) {
+    // Work conjugate of (eps_xx, eps_yy, eps_xy) is (s_xx, s_yy, 2 s_xy); strains carry the length scale.
+    const double v = a.volume[p] / (op.length_scale * op.length_scale);
+    vc.insert(vc.end(), {{3 * p, 3 * p, v * d.direct / det},
+                         {3 * p, 3 * p + 1, -v * d.coupling / det},
+                         {3 * p + 1, 3 * p, -v * d.coupling / det},
+                         {3 * p + 1, 3 * p + 1, v * d.direct / det},
+                         {3 * p + 2, 3 * p + 2, v * 2.0 / d.shear}});
+  }
+  op.strain_overlap = sparse(rows, strains, g);
+  op.stress = sparse(strains, rows, s);
+  op.strain_stiffness = sparse(strains, strains, vc);
+  op.symmetric = correct_slip == stress_of_shear;
+}
+
+}  // namespace
+
+SparseMatrix Operators::stiffness_matrix() const {
+  return SparseMatrix(overlap.transpose()) * stiffness.asDiagonal() * overlap;
+}
+
+Operators make_operators(const Assembly& a, const ContactParameters& contact,
+                         const DeformationParameters& deformation) {
+  Operators op;
+  op.dofs_per_disc = contact.has_rotation() ? 3 : 2;
+  op.rows_per_bond = contact.has_rotation() ? 2 : 1;
+  op.length_scale = mean_radius(a.packing);
+  const int bonds = static_cast<int>(a.bonds.size());
+  Triplets t;
+  for (int c = 0; c < bonds; ++c) add_overlap_rows(t, a.bonds, c, op);
+  op.overlap = sparse(op.rows_per_bond * bonds, op.dofs_per_disc * static_cast<Eigen::Index>(a.size()), t);
+  op.stiffness.resize(op.overlap.rows());
+  for (Eigen::Index r = 0; r < op.stiffness.size(); ++r) {
+    op.stiffness[r] = r % op.rows_per_bond == 0 ? contact.normal_stiffness : contact.shear_stiffness();
+  }
+  op.inverse_mass.resize(op.overlap.cols());
+  for (int p = 0; p < static_cast<int>(a.size()); ++p) {
+    op.inverse_mass.segment(op.dofs_per_disc * p, 2).setConstant(1.0 / a.mass[p]);
+    if (contact.has_rotation()) {
+      op.inverse_mass[3 * p + 2] = op.length_scale * op.length_scale / a.inertia[p];
+    }
+  }
+  if (deformation.active()) add_deformation(op, a, deformation);
+  return op;
+}
+
+Eigen::VectorXd affine_overlaps(const Assembly& a, const Operators& op, const MacroStrain& e) {
+  Eigen::VectorXd w(op.overlap.rows());
+  for (int c = 0; c < static_cast<int>(a.bonds.size()); ++c) {
+    const double nx = a.bonds.nx[c], ny = a.bonds.ny[c], length = a.bonds.length[c];
+    const double ux = length * (e.xx * nx + 0.5 * e.xy * ny);
+    const double uy = length * (0.5 * e.xy * nx + e.yy * ny);
+    w[op.rows_per_bond * c] = nx * ux + ny * uy;
+    if (op.rows_per_bond == 2) w[2 * c + 1] = -ny * ux + nx * uy;
+  }
+  return w;
+}
+
+}  // namespace ddem

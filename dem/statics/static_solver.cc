@@ -1,0 +1,155 @@
+#include "dem/statics/static_solver.h"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <stdexcept>
+
+namespace ddem {
+namespace {
+
+constexpr double kRegularisation = 1e-11;
+constexpr double kResidual = 1e-12;
+constexpr int kRefinements = 20;
+
+void append(std::vector<Eigen::Triplet<double>>& t, const SparseMatrix& m, Eigen::Index row, Eigen::Index col,
+            double factor) {
+  for (int k = 0; k < m.outerSize(); ++k) {
+    for (SparseMatrix::InnerIterator it(m, k); it; ++it) {
+      t.emplace_back(static_cast<int>(row + it.row()), static_cast<int>(col + it.col()), factor * it.value());
+    }
+  }
+}
+
+}  // namespace
+
+struct StaticSolver::Impl {
+  const Assembly& assembly;
+  Operators op;
+  std::vector<int> reduced;  ///< unknown of each dof, -1 where held
+  Eigen::Index free = 0;     ///< unknown displacements and rotations
+  SparseMatrix matrix;       ///< of the unknowns, divided by k_n
+  double scale = 1.0;
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  Eigen::SparseLU<SparseMatrix> lu;
+
+  explicit Impl(const Assembly& a) : assembly(a) {}
+
+  Eigen::VectorXd apply_inverse(const Eigen::VectorXd& b) const {
+    if (op.symmetric) return ldlt.solve(b);
+    return lu.solve(b);
+  }
+
+  void number_unknowns(const HeldDofs& held) {
+    reduced.assign(static_cast<std::size_t>(op.overlap.cols()), -1);
+    const auto is_held = [](const std::vector<std::uint8_t>& h, std::size_t p) { return !h.empty() && h[p]; };
+    int next = 0;
+    for (std::size_t p = 0; p < assembly.size(); ++p) {
+      const std::size_t d = op.dofs_per_disc * p;
+      if (!is_held(held.x, p)) reduced[d] = next++;
+      if (!is_held(held.y, p)) reduced[d + 1] = next++;
+      if (op.dofs_per_disc == 3 && !is_held(held.theta, p)) reduced[d + 2] = next++;
+    }
+    free = next;
+  }
+
+  /// Columns of C that belong to unknowns.
+  SparseMatrix free_overlap() const {
+    std::vector<Eigen::Triplet<double>> t;
+    for (int k = 0; k < op.overlap.outerSize(); ++k) {
+      if (reduced[k] < 0) continue;
+      for (SparseMatrix::InnerIterator it(op.overlap, k); it; ++it) {
+        t.emplace_back(static_cast<int>(it.row()), reduced[k], it.value());
+      }
+    }
+    SparseMatrix c(op.overlap.rows(), free);
+    c.setFromTriplets(t.begin(), t.end());
+    return c;
+  }
+
+  void build_matrix() {
+    const SparseMatrix c = free_overlap();
+    const SparseMatrix kc = op.stiffness.asDiagonal() * c;
+    std::vector<Eigen::Triplet<double>> t;
+    append(t, SparseMatrix(c.transpose()) * kc, 0, 0, 1.0 / scale);
+    const Eigen::Index strains = op.deformable() ? op.strain_overlap.cols() : 0;
+    if (op.deformable()) {
+      const SparseMatrix kg = op.stiffness.asDiagonal() * op.strain_overlap;
+      append(t, SparseMatrix(c.transpose()) * kg, 0, free, -1.0 / scale);
+      append(t, op.stress * kc, free, 0, -1.0 / scale);
+      append(t, op.stress * kg, free, free, 1.0 / scale);
+      append(t, op.strain_stiffness, free, free, 1.0 / scale);
+    }
+    matrix.resize(free + strains, free + strains);
+    matrix.setFromTriplets(t.begin(), t.end());
+  }
+
+  void factorise() {
+    SparseMatrix regular = matrix;
+    for (Eigen::Index d = 0; d < free; ++d) regular.coeffRef(d, d) += kRegularisation;
+    regular.makeCompressed();
+    if (op.symmetric) {
+      ldlt.compute(regular);
+    } else {
+      lu.compute(regular);
+    }
+    if ((op.symmetric ? ldlt.info() : lu.info()) != Eigen::Success) {
+      throw std::runtime_error("the static stiffness matrix could not be factorised");
+    }
+  }
+};
+
+StaticSolver::StaticSolver(const Assembly& assembly, const ContactParameters& contact,
+                           const DeformationParameters& deformation, const HeldDofs& held)
+    : impl_(std::make_unique<Impl>(assembly)) {
+  impl_->op = make_operators(assembly, contact, deformation);
+  impl_->scale = contact.normal_stiffness;
+  impl_->number_unknowns(held);
+  impl_->build_matrix();
+  impl_->factorise();
+}
+
+StaticSolver::~StaticSolver() = default;
+StaticSolver::StaticSolver(StaticSolver&&) noexcept = default;
+
+const Operators& StaticSolver::operators() const { return impl_->op; }
+
+StaticState StaticSolver::solve(const MacroStrain& strain) const {
+  const Impl& m = *impl_;
+  const Operators& op = m.op;
+  const Eigen::VectorXd affine = affine_overlaps(m.assembly, op, strain);
+  const Eigen::VectorXd affine_force = op.stiffness.cwiseProduct(affine);
+
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(m.matrix.rows());
+  const Eigen::VectorXd load = op.overlap.transpose() * affine_force;
+  for (Eigen::Index d = 0; d < load.size(); ++d) {
+    if (m.reduced[d] >= 0) rhs[m.reduced[d]] = -load[d] / m.scale;
+  }
+  if (op.deformable()) rhs.tail(op.stress.rows()) = op.stress * affine_force / m.scale;
+
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(rhs.size());
+  Eigen::VectorXd residual = rhs;
+  // Relative to the affine forces, not to the right-hand side: that one vanishes on a perfect lattice.
+  const double target = kResidual * affine.norm();
+  for (int k = 0; k < kRefinements && residual.norm() > target; ++k) {
+    x += m.apply_inverse(residual);
+    residual = rhs - m.matrix * x;
+  }
+  if (!(residual.norm() <= target)) {
+    throw std::runtime_error("the static solve did not converge: the assembly has a mechanism that the load drives");
+  }
+
+  StaticState state;
+  state.fluctuation = Eigen::VectorXd::Zero(op.overlap.cols());
+  for (Eigen::Index d = 0; d < state.fluctuation.size(); ++d) {
+    if (m.reduced[d] >= 0) state.fluctuation[d] = x[m.reduced[d]];
+  }
+  Eigen::VectorXd overlaps = affine + op.overlap * state.fluctuation;
+  if (op.deformable()) {
+    state.strain = x.tail(op.stress.rows());
+    overlaps -= op.strain_overlap * state.strain;
+  }
+  state.bond_forces = op.stiffness.cwiseProduct(overlaps);
+  return state;
+}
+
+}  // namespace ddem

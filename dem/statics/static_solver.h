@@ -1,0 +1,47 @@
+#pragma once
+// Static equilibrium of an assembly under a macroscopic strain, with converged particle strains.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "dem/statics/operators.h"
+
+namespace ddem {
+
+/// Degrees of freedom that do not move (1), disc by disc. Empty vectors: none.
+struct HeldDofs {
+  std::vector<std::uint8_t> x, y, theta;
+};
+
+/// Equilibrium: displacement E . x + fluctuation, and the forces of the bonds.
+struct StaticState {
+  Eigen::VectorXd fluctuation;   ///< q as in Operators
+  Eigen::VectorXd strain;        ///< particle strains as in Operators (times the length scale)
+  Eigen::VectorXd bond_forces;   ///< rows as in Operators::overlap, N
+};
+
+/// Factorises once, solves for any number of strains. The system in (q, eps) is
+///   [ C^T K C    -C^T K G      ] [q  ]     [ C^T K e_E ]
+///   [ -S K C     V C + S K G   ] [eps] = - [ -S K e_E  ],   e_E = affine overlaps;
+/// symmetric positive definite for F and NN, factorised by LDL^T, by LU for N with tangential stiffness.
+/// Modes without stiffness (rigid motion, floppy discs) get a regularisation of 1e-11 of the stiffest entry, the
+/// same for every scaled unknown, whose influence iterative refinement takes out again.
+class StaticSolver {
+ public:
+  /// Throws std::runtime_error if the factorisation fails.
+  StaticSolver(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation,
+               const HeldDofs& held);
+  ~StaticSolver();
+  StaticSolver(StaticSolver&&) noexcept;
+
+  /// Throws std::runtime_error if the residual does not fall below 1e-12 of the load.
+  StaticState solve(const MacroStrain& strain) const;
+  const Operators& operators() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ddem
