@@ -27,28 +27,32 @@ Bonds select(const Bonds& bonds, const std::vector<char>& keep) {
   return out;
 }
 
+/// Throws unless all discs but the rattlers hang together.
+void require_one_network(const Assembly& a, std::size_t discs) {
+  if (a.rattlers.size() == discs) {
+    throw std::invalid_argument("the assembly has no bonded network: every disc has fewer than two bonds; raise bond_gap or coordination");
+  }
+  const auto networks = connected_components(discs, a.bonds, a.rattlers);
+  if (networks.size() == 1) return;
+  const auto smallest = std::min_element(networks.begin(), networks.end(), [](const auto& x, const auto& y) { return x.size() < y.size(); });
+  throw std::invalid_argument("the assembly falls apart into " + std::to_string(networks.size()) +
+                              " networks without a bond between them (the smallest has " + std::to_string(smallest->size()) +
+                              " discs, among them disc " + std::to_string(smallest->front()) +
+                              "); raise bond_gap or coordination, or name the missing bonds");
+}
+
 }  // namespace
 
-Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density) {
+Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density, RattlerRule rule) {
   Assembly a;
   const std::size_t n = packing.size();
-  a.rattlers = find_rattlers(n, bonds);
+  if (rule == RattlerRule::peel) a.rattlers = find_rattlers(n, bonds);
   std::vector<char> is_rattler(n, 0);
   for (const int d : a.rattlers) is_rattler[d] = 1;
   std::vector<char> keep(bonds.size());
   for (std::size_t c = 0; c < bonds.size(); ++c) keep[c] = !is_rattler[bonds.i[c]] && !is_rattler[bonds.j[c]];
   a.bonds = select(bonds, keep);
-
-  std::size_t networks = 0;
-  for (const auto& component : connected_components(n, a.bonds)) {
-    if (component.size() > 1 || !is_rattler[component.front()]) ++networks;
-  }
-  if (networks != 1) {
-    throw std::invalid_argument(
-        networks == 0 ? "the assembly has no bonded network: every disc has fewer than two bonds; raise bond_gap"
-                      : "the assembly falls apart into " + std::to_string(networks) +
-                            " networks without a bond between them; raise bond_gap or coordination");
-  }
+  require_one_network(a, n);
 
   a.thickness = thickness;
   a.density = density;

@@ -15,16 +15,22 @@ struct Assembly {
   double thickness = 1.0;  ///< m, out of plane
   double density = 0.0;    ///< of a disc, kg/m3
   std::vector<double> mass, inertia, volume;  ///< kg, kg m2, m3: m = rho pi r^2 h, I = m r^2 / 2
-  /// Discs on fewer than two bonds (found by repeated peeling): they weigh but do not move.
+  /// They weigh but carry no bond: see RattlerRule.
   std::vector<int> rattlers;
 
   std::size_t size() const { return packing.size(); }
   double area() const { return packing.length * packing.width; }
 };
 
+enum class RattlerRule {
+  peel,  ///< discs on fewer than two bonds are rattlers, repeatedly: for packings made by chance
+  none   ///< every disc belongs to the network: for packings that somebody laid out, chains included
+};
+
 /// Takes the bonds of rattlers out and computes masses.
 /// Throws std::invalid_argument if what is left is not one connected network.
-Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density);
+Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density,
+                       RattlerRule rule = RattlerRule::none);
 
 /// The same packing cut free: the bonds that reach through the period in x (and y) are left out.
 /// Used for strips made from a periodic packing.

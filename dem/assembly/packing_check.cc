@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "dem/assembly/neighbour_grid.h"
 
@@ -29,31 +30,32 @@ class Listing {
   std::vector<std::string> problems_;
 };
 
-/// True when every period leaves room for one image only of each pair that touches.
-bool check_periods(const Packing& packing, std::vector<std::string>& problems) {
-  const double largest = *std::max_element(packing.radius.begin(), packing.radius.end());
-  bool good = true;
-  const auto check = [&](double period, const char* direction) {
-    if (!std::isfinite(period) || period < 0.0) {
+std::vector<std::string> bad_periods(const Packing& packing) {
+  std::vector<std::string> problems;
+  for (const auto& [period, direction] : {std::pair(packing.period.x, "x"), std::pair(packing.period.y, "y")})
+    if (!std::isfinite(period) || period < 0.0)
       problems.push_back(
           fmt::format("the period in {} must be positive (0: not periodic), but is {} m", direction, period));
-      good = false;
-    } else if (period > 0.0 && period <= 4.0 * largest) {
-      problems.push_back(fmt::format(
-          "the period in {}, {:.6g} m, must be longer than two diameters of the largest disc, {:.6g} m: "
-          "discs could touch through two images",
-          direction, period, 4.0 * largest));
-      good = false;
-    }
-  };
-  check(packing.period.x, "x");
-  check(packing.period.y, "y");
-  return good;
+  return problems;
+}
+
+/// Periods that leave room for a second image of a pair that touches.
+std::vector<std::string> short_periods(const Packing& packing) {
+  const double largest = *std::max_element(packing.radius.begin(), packing.radius.end());
+  std::vector<std::string> problems;
+  for (const auto& [period, direction] : {std::pair(packing.period.x, "x"), std::pair(packing.period.y, "y")})
+    if (period > 0.0 && period <= 4.0 * largest)
+      problems.push_back(
+          fmt::format("the period in {}, {:.6g} m, must be longer than two diameters of the largest disc, "
+                      "{:.6g} m: discs could "
+                      "touch through two images",
+                      direction, period, 4.0 * largest));
+  return problems;
 }
 
 /// Allowed distance from the origin, so that the nearest image keeps its digits.
 bool usable(double centre, double period) {
-  return std::isfinite(centre) && (period <= 0.0 || std::abs(centre) <= 1e12 * period);
+  return std::isfinite(centre) && !(period > 0.0 && std::abs(centre) > 1e12 * period);
 }
 
 Listing bad_discs(const Packing& packing) {
@@ -95,13 +97,12 @@ std::vector<std::string> packing_problems(const Packing& packing) {
   if (packing.y.size() != n || packing.radius.size() != n)
     return {fmt::format("a packing needs as many x as y and radii, but has {}, {} and {}", n,
                         packing.y.size(), packing.radius.size())};
-  std::vector<std::string> problems;
+  std::vector<std::string> problems = bad_periods(packing);
   if (n < 2) problems.push_back(fmt::format("a packing needs at least two discs, but has {}", n));
-  const Listing bad = bad_discs(packing);
-  bad.append_to(problems);
+  bad_discs(packing).append_to(problems);
   // Images and overlaps are meaningless among discs that are not there.
-  if (!problems.empty() || !check_periods(packing, problems)) return problems;
-  heavy_overlaps(packing).append_to(problems);
+  if (problems.empty()) problems = short_periods(packing);
+  if (problems.empty()) heavy_overlaps(packing).append_to(problems);
   return problems;
 }
 

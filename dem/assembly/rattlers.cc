@@ -71,23 +71,6 @@ std::vector<int> find_rattlers(std::size_t discs, const Bonds& bonds) {
   return rattlers;
 }
 
-Bonds without_bonds_of(std::size_t discs, const Bonds& bonds, std::span<const int> removed) {
-  check_bonds(bonds, discs);
-  const std::vector<char> gone = marked(removed, discs);
-  Bonds kept;
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if (gone[bonds.i[b]] || gone[bonds.j[b]]) continue;
-    kept.i.push_back(bonds.i[b]);
-    kept.j.push_back(bonds.j[b]);
-    kept.nx.push_back(bonds.nx[b]);
-    kept.ny.push_back(bonds.ny[b]);
-    kept.length.push_back(bonds.length[b]);
-    kept.arm_i.push_back(bonds.arm_i[b]);
-    kept.arm_j.push_back(bonds.arm_j[b]);
-  }
-  return kept;
-}
-
 std::vector<std::vector<int>> connected_components(std::size_t discs, const Bonds& bonds,
                                                    std::span<const int> left_out) {
   const Adjacency neighbours(discs, bonds);

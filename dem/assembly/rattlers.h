@@ -20,10 +20,6 @@ namespace ddem {
 /// does not exist.
 std::vector<int> find_rattlers(std::size_t discs, const Bonds& bonds);
 
-/// The bonds that touch none of `removed`, in their order. Throws std::invalid_argument on an index outside
-/// [0, discs).
-Bonds without_bonds_of(std::size_t discs, const Bonds& bonds, std::span<const int> removed);
-
 /// Pieces of the network: each a list of discs (ascending), pieces ordered by their first disc; discs of
 /// `left_out` (rattlers) belong to none. An assembly in one piece gives one list. Throws
 /// std::invalid_argument on an index outside [0, discs).

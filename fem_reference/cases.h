@@ -1,0 +1,82 @@
+#pragma once
+// The case file of ddem-fem: {"schema": 1, "cases": [...]}, SI units, all that the program does.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fem_reference/kernel/material.h"
+
+namespace ddem::fem {
+
+/// Everything wrong with a case file, one problem a line, each naming case and key.
+class CaseError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+enum class Wave { longitudinal, shear };
+enum class Shape { column, cosine, gaussian };
+enum class RightEdge { free, fixed_x, fixed };
+
+/// Displacement at rest at t = 0: ux (longitudinal) or uy (shear) as a function of s, the distance from the
+/// left end.
+///   column    amplitude max(0, 1 - s/spacing): the linear interpolant of a displaced first column of discs
+///   cosine    amplitude/2 (1 + cos(pi s/width)) for s < width
+///   gaussian  amplitude exp(-(s - center)^2/(2 width^2))
+struct InitialPulse {
+  Wave wave = Wave::longitudinal;
+  Shape shape = Shape::gaussian;
+  double amplitude = 0.0;  ///< m
+  double width = 0.0;      ///< m; cosine, gaussian
+  double center = 0.0;     ///< m; gaussian
+  double spacing = 0.0;    ///< m; column
+};
+
+/// Prescribed motion of one component of the left edge: amplitude sin^2(pi t/duration) up to `duration`, held
+/// at 0 after it. The other component is free: a bar contracts laterally at its end as it does everywhere
+/// else (a fixed uy would clamp it), and a plane shear wave has no ux to hold.
+struct EdgeDrive {
+  Wave wave = Wave::longitudinal;
+  double duration = 0.0;   ///< s
+  double amplitude = 0.0;  ///< m
+};
+
+struct TimeSpan {
+  double step_fraction = 0.0;          ///< of the critical time step; above 1 the run blows up
+  std::optional<double> end;           ///< s; the last step is the first that reaches it
+  std::optional<std::uint64_t> steps;  ///< instead of end
+};
+
+struct Receivers {
+  std::vector<std::array<double, 2>> points;  ///< m, from the lower left corner
+  std::vector<double> sections;               ///< x in m: average over the height
+};
+
+struct StripCase {
+  std::string id;
+  double length = 0.0, width = 0.0;    ///< m
+  std::array<unsigned, 2> elements{};  ///< along length and width
+  int degree = 0;
+  double young_modulus = 0.0, poisson_ratio = 0.0, density = 0.0;
+  Plane plane = Plane::stress;
+  bool periodic = false;  ///< top and bottom
+  RightEdge right = RightEdge::free;
+  std::optional<InitialPulse> initial;
+  std::optional<EdgeDrive> drive;
+  TimeSpan time;
+  Receivers receivers;
+  std::uint64_t sample_every = 1;  ///< steps between samples
+};
+
+/// Throws CaseError listing every problem: unknown and missing keys, wrong types, impossible values.
+std::vector<StripCase> parse_cases(const std::string& text);
+
+/// The same from a file. Throws CaseError, also if the file cannot be read.
+std::vector<StripCase> read_cases(const std::filesystem::path& file);
+
+}  // namespace ddem::fem

@@ -1,0 +1,84 @@
+#include "fem_reference/kernel/critical_step.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace ddem::fem {
+namespace {
+
+constexpr int largest_krylov_dimension = 2000;
+constexpr int test_interval = 10;
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+// A start with a part in every mode: no symmetry of the mesh can hide the largest one.
+std::vector<double> pseudo_random_start(std::span<const double> root_inverse_mass) {
+  std::vector<double> start(root_inverse_mass.size());
+  std::uint64_t state = 0x9E3779B97F4A7C15u;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    start[k] = root_inverse_mass[k] > 0.0 ? static_cast<double>(state >> 11) * 0x1p-53 - 0.5 : 0.0;
+  }
+  const double norm = std::sqrt(dot(start, start));
+  if (!(norm > 0.0)) throw std::invalid_argument("no degree of freedom is free");
+  for (double& value : start) value /= norm;
+  return start;
+}
+
+struct RitzValue {
+  double value, residual;
+};
+
+// The largest eigenpair of the tridiagonal matrix; beta_k times the last entry of its vector is the
+// residual of the Ritz vector, hence |lambda - theta| <= residual for an eigenvalue lambda.
+RitzValue largest_ritz_value(const std::vector<double>& alpha, const std::vector<double>& beta) {
+  const auto size = static_cast<Eigen::Index>(alpha.size());
+  const Eigen::VectorXd diagonal = Eigen::Map<const Eigen::VectorXd>(alpha.data(), size);
+  const Eigen::VectorXd below = Eigen::Map<const Eigen::VectorXd>(beta.data(), size - 1);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, below);
+  if (solver.info() != Eigen::Success) throw std::runtime_error("Lanczos: tridiagonal eigenvalues failed");
+  return {solver.eigenvalues()[size - 1], std::abs(beta.back() * solver.eigenvectors()(size - 1, size - 1))};
+}
+
+}  // namespace
+
+double largest_squared_frequency(const ElasticOperator& stiffness, std::span<const double> inverse_mass) {
+  const std::size_t size = stiffness.vector_size();
+  if (inverse_mass.size() != size)
+    throw std::invalid_argument("inverse mass must have vector_size() entries");
+  std::vector<double> root(size), before(size, 0.0), scaled(size), image(size), alpha, beta;
+  for (std::size_t k = 0; k < size; ++k) root[k] = std::sqrt(inverse_mass[k]);
+  std::vector<double> current = pseudo_random_start(root);
+  for (int step = 1; step <= largest_krylov_dimension; ++step) {
+    for (std::size_t k = 0; k < size; ++k) scaled[k] = root[k] * current[k];
+    stiffness.apply(scaled, image);
+    for (std::size_t k = 0; k < size; ++k) image[k] *= root[k];
+    alpha.push_back(dot(current, image));
+    const double last_beta = beta.empty() ? 0.0 : beta.back();
+    for (std::size_t k = 0; k < size; ++k) image[k] -= alpha.back() * current[k] + last_beta * before[k];
+    beta.push_back(std::sqrt(dot(image, image)));
+    const bool exhausted = beta.back() <= 1e-13 * std::abs(alpha.front());
+    if (exhausted || step % test_interval == 0) {
+      const RitzValue ritz = largest_ritz_value(alpha, beta);
+      if (!std::isfinite(ritz.value)) break;
+      if (ritz.residual <= eigenvalue_tolerance * ritz.value) return ritz.value + ritz.residual;
+    }
+    before.swap(current);
+    for (std::size_t k = 0; k < size; ++k) current[k] = image[k] / beta.back();
+  }
+  throw std::runtime_error("Lanczos: the largest eigenfrequency did not converge");
+}
+
+double critical_time_step(const ElasticOperator& stiffness, std::span<const double> inverse_mass) {
+  return 2.0 / std::sqrt(largest_squared_frequency(stiffness, inverse_mass));
+}
+
+}  // namespace ddem::fem

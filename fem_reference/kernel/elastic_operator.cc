@@ -1,0 +1,111 @@
+#include "fem_reference/kernel/elastic_operator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "fem_reference/kernel/gauss_lobatto.h"
+
+namespace ddem::fem {
+namespace {
+
+double determinant(const std::array<double, 4>& j) {
+  return j[0] * j[3] - j[1] * j[2];
+}
+
+void check(const ElementMesh& mesh) {
+  const std::size_t points = (mesh.degree + 1) * (mesh.degree + 1);
+  if (mesh.jacobians.empty() || mesh.nodes.size() != mesh.element_count() * points) {
+    throw std::invalid_argument("a mesh needs (degree+1)^2 nodes for each of its elements, and an element");
+  }
+  for (const std::uint32_t node : mesh.nodes) {
+    if (node >= mesh.node_count) throw std::invalid_argument("an element names a node that is not there");
+  }
+  for (const auto& j : mesh.jacobians) {
+    if (!(determinant(j) > 0.0) || !std::isfinite(determinant(j))) {
+      throw std::invalid_argument("an element is turned over or has no area");
+    }
+  }
+}
+
+// c_ijkl of an isotropic plane: lambda d_ij d_kl + mu (d_ik d_jl + d_il d_jk).
+double stiffness(const PlaneMaterial& m, int i, int j, int k, int l) {
+  return m.lame_lambda * (i == j) * (k == l) + m.shear_modulus * ((i == k) * (j == l) + (i == l) * (j == k));
+}
+
+std::array<double, coefficients_per_element> coefficients(const std::array<double, 4>& jacobian,
+                                                          const PlaneMaterial& material) {
+  const double det = determinant(jacobian);
+  const double inverse[2][2] = {{jacobian[3] / det, -jacobian[1] / det},
+                                {-jacobian[2] / det, jacobian[0] / det}};  // d(xi, eta)/d(x, y)
+  std::array<double, coefficients_per_element> c{};
+  std::size_t entry = 0;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = row; column < 4; ++column, ++entry) {
+      for (int j = 0; j < 2; ++j) {
+        for (int l = 0; l < 2; ++l) {
+          c[entry] += det * inverse[row % 2][j] * stiffness(material, row / 2, j, column / 2, l) *
+                      inverse[column % 2][l];
+        }
+      }
+    }
+  }
+  return c;
+}
+
+}  // namespace
+
+ElasticOperator::ElasticOperator(const ElementMesh& mesh, const PlaneMaterial& material, InstructionSet set)
+    : kernel_(stiffness_kernel(mesh.degree, set)) {
+  check(mesh);
+  GaussLobatto rule = gauss_lobatto(mesh.degree);
+  derivative_ = std::move(rule.derivative);
+  weights_ = std::move(rule.weights);
+  add_mass(mesh, material.density);
+  pack(mesh, material);
+}
+
+void ElasticOperator::add_mass(const ElementMesh& mesh, double density) {
+  const std::size_t n = mesh.degree + 1;
+  mass_.assign(mesh.node_count, 0.0);
+  for (std::size_t element = 0; element < mesh.element_count(); ++element) {
+    const double total = density * determinant(mesh.jacobians[element]);
+    for (std::size_t point = 0; point < n * n; ++point) {
+      mass_[mesh.nodes[element * n * n + point]] += total * weights_[point % n] * weights_[point / n];
+    }
+  }
+  if (std::any_of(mass_.begin(), mass_.end(), [](double m) { return !(m > 0.0); })) {
+    throw std::invalid_argument("a node belongs to no element");
+  }
+}
+
+void ElasticOperator::pack(const ElementMesh& mesh, const PlaneMaterial& material) {
+  const std::size_t points = (mesh.degree + 1) * (mesh.degree + 1);
+  const std::size_t batches = (mesh.element_count() + lanes - 1) / lanes;
+  // Lanes without an element work on the padding node with coefficients zero.
+  batch_nodes_.assign(batches * points * lanes, static_cast<std::uint32_t>(mesh.node_count));
+  batch_coefficients_.assign(batches * coefficients_per_element * lanes, 0.0);
+  for (std::size_t element = 0; element < mesh.element_count(); ++element) {
+    const std::size_t batch = element / lanes, lane = element % lanes;
+    for (std::size_t point = 0; point < points; ++point) {
+      batch_nodes_[(batch * points + point) * lanes + lane] = mesh.nodes[element * points + point];
+    }
+    const auto c = coefficients(mesh.jacobians[element], material);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      batch_coefficients_[(batch * coefficients_per_element + k) * lanes + lane] = c[k];
+    }
+  }
+}
+
+void ElasticOperator::apply(std::span<const double> u, std::span<double> f) const {
+  if (u.size() != vector_size() || f.size() != vector_size()) {
+    throw std::invalid_argument("displacement and force must have vector_size() entries");
+  }
+  std::fill(f.begin(), f.end(), 0.0);
+  const KernelData data{batch_nodes_.size() / (lanes * weights_.size() * weights_.size()),
+                        batch_nodes_.data(), batch_coefficients_.data(), derivative_.data(), weights_.data()};
+  kernel_(data, u.data(), f.data());
+}
+
+}  // namespace ddem::fem

@@ -1,0 +1,46 @@
+#pragma once
+// Stiffness and lumped mass of plane elastodynamics, M u'' = -K u, on spectral elements.
+//
+// On an affine element the slopes along the reference directions, g = (ux_xi, ux_eta, uy_xi, uy_eta), give
+// the energy 1/2 sum_q w_q g' C g with one symmetric 4 x 4 matrix an element,
+//     C(ia, kb) = |J| sum_jl Jinv(a, j) c_ijkl Jinv(b, l),
+// and f = K u is its derivative, with the slopes by sum factorisation at the Gauss-Lobatto points.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fem_reference/kernel/element_mesh.h"
+#include "fem_reference/kernel/material.h"
+#include "fem_reference/kernel/stiffness_kernel.h"
+
+namespace ddem::fem {
+
+class ElasticOperator {
+ public:
+  /// Throws std::invalid_argument for a mesh whose arrays do not fit together or an element without area.
+  ElasticOperator(const ElementMesh& mesh, const PlaneMaterial& material,
+                  InstructionSet set = best_instruction_set());
+
+  std::size_t node_count() const { return mass_.size(); }
+  /// Length of displacement and force arrays: 2 a node, interleaved, and one node that pads the last batch.
+  std::size_t vector_size() const { return 2 * (mass_.size() + 1); }
+  /// Lumped mass of each node, kg per metre of thickness.
+  const std::vector<double>& mass() const { return mass_; }
+
+  /// f = K u, N per metre of thickness; both of vector_size() entries, u's padding node zero.
+  void apply(std::span<const double> u, std::span<double> f) const;
+
+ private:
+  void add_mass(const ElementMesh& mesh, double density);
+  void pack(const ElementMesh& mesh, const PlaneMaterial& material);
+
+  std::vector<double> derivative_, weights_;
+  std::vector<double> mass_;
+  std::vector<std::uint32_t> batch_nodes_;
+  std::vector<double> batch_coefficients_;
+  StiffnessKernel kernel_;
+};
+
+}  // namespace ddem::fem

@@ -1,0 +1,35 @@
+#pragma once
+// The element loop of f = K u: batches of `lanes` elements, one element a lane, structure of arrays. The same
+// source is compiled once for each instruction set; lanes never mix and contraction is off, so all of them
+// give the same bits.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace ddem::fem {
+
+inline constexpr std::size_t lanes = 8;
+/// Upper triangle of the symmetric 4 x 4 matrix of an element; see ElasticOperator.
+inline constexpr std::size_t coefficients_per_element = 10;
+
+struct KernelData {
+  std::size_t batches = 0;
+  const std::uint32_t* nodes = nullptr;  ///< [batch][point][lane]
+  const double* coefficients = nullptr;  ///< [batch][coefficient][lane]
+  const double* derivative = nullptr;    ///< (degree+1)^2, GaussLobatto::derivative
+  const double* weights = nullptr;       ///< degree + 1
+};
+
+/// Adds K u to `f`; both are interleaved (ux, uy of node 0, of node 1, ...). One thread, batches in order.
+using StiffnessKernel = void (*)(const KernelData& data, const double* u, double* f);
+
+enum class InstructionSet { baseline, avx2, avx512 };
+
+bool is_available(InstructionSet set);
+/// The widest one of this processor.
+InstructionSet best_instruction_set();
+/// The one dispatch over degree (1..8) and instruction set. Throws std::invalid_argument for a degree or
+/// an instruction set that is not there.
+StiffnessKernel stiffness_kernel(int degree, InstructionSet set);
+
+}  // namespace ddem::fem

@@ -1,0 +1,104 @@
+// ddem-fem: many cases of the continuum strip in one process, case file in, signals file out.
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "fem_reference/cases.h"
+#include "fem_reference/run_case.h"
+#include "fem_reference/signals_file.h"
+#include "fem_reference/strip_model.h"
+
+namespace {
+
+using namespace ddem::fem;
+
+enum Exit { done = 0, wrong_input = 2, solver_failed = 3, machine_failed = 4 };
+
+const std::string version =
+    fmt::format("ddem-fem {} (GCC {}, deal.II {})", DDEM_VERSION, __VERSION__, DEAL_II_PACKAGE_VERSION);
+
+struct Arguments {
+  std::string cases, output;
+  bool progress = false;
+};
+
+int complain(Exit code, const std::string& message) {
+  fmt::print(stderr, "ddem-fem: {}\n", message);
+  return code;
+}
+
+// A failed solution is a status of its case; the other cases still run.
+CaseResult solve(const StripCase& strip, const StripModel& model) {
+  try {
+    return run_case(strip, model);
+  } catch (const std::runtime_error& error) {
+    CaseResult failed;
+    failed.status = fmt::format("failed: {}", error.what());
+    return failed;
+  }
+}
+
+int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
+  SignalsFile signals(arguments.output, version);
+  StripModeller modeller;
+  bool all_ok = true;
+  for (const StripCase& strip : cases) {
+    const StripModel model = modeller.model(strip);
+    const CaseResult result = solve(strip, model);
+    if (!result.ok()) complain(solver_failed, fmt::format("case \"{}\": {}", strip.id, result.status));
+    all_ok = all_ok && result.ok();
+    signals.write(strip, result);
+    if (arguments.progress) fmt::print(stderr, "done {}\n", strip.id);
+  }
+  signals.commit();
+  return all_ok ? done : solver_failed;
+}
+
+int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arguments, int argc,
+                       char** argv) {
+  // A process of its own needs no daemon of Open MPI, which costs 0.1 s at the start; mpirun sets the rank.
+  if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  try {
+    return run(cases, arguments);
+  } catch (const CaseError& error) {
+    return complain(wrong_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    return complain(wrong_input, error.what());
+  } catch (const std::exception& error) {  // disk, gmsh, memory
+    return complain(machine_failed, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Continuum reference of the strip: explicit plane elastodynamics on spectral elements.",
+               "ddem-fem");
+  app.add_option("CASES.json", arguments.cases, "what to solve: {\"schema\": 1, \"cases\": [...]}, SI units")
+      ->required();
+  app.add_option("-o", arguments.output, "signals file (HDF5), one group a case")->required();
+  app.add_flag("--progress", arguments.progress,
+               "print \"done ID\" for each finished case to standard error");
+  app.set_version_flag("--version", version);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : wrong_input;
+  }
+  std::vector<StripCase> cases;
+  try {
+    cases = read_cases(arguments.cases);
+  } catch (const CaseError& error) {
+    return complain(wrong_input, fmt::format("{}:\n{}", arguments.cases, error.what()));
+  }
+  return run_with_libraries(cases, arguments, argc, argv);
+}

@@ -1,0 +1,165 @@
+#include "fem_reference/signals_file.h"
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ddem::fem {
+namespace {
+
+constexpr const char* not_written = "HDF5 cannot hold the signals";
+
+hid_t checked(hid_t id) {
+  if (id < 0) throw FileError(not_written);
+  return id;
+}
+
+void check(herr_t status) {
+  if (status < 0) throw FileError(not_written);
+}
+
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close closer) : id_(checked(id)), close_(closer) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: a handle is used as the id it holds
+  // Closing a dataset or a group writes what is left: that may fail, and must be seen.
+  void close() { check(close_(std::exchange(id_, -1))); }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+Handle space(const std::vector<hsize_t>& shape) {
+  return shape.empty()
+             ? Handle(H5Screate(H5S_SCALAR), H5Sclose)
+             : Handle(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
+}
+
+void write_dataset(hid_t group, const char* name, const std::vector<hsize_t>& shape,
+                   std::span<const double> data) {
+  const Handle extent = space(shape);
+  Handle dataset(H5Dcreate2(group, name, H5T_IEEE_F64LE, extent, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                 H5Dclose);
+  if (!data.empty()) check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()));
+  dataset.close();
+}
+
+void write_attribute(hid_t object, const char* name, hid_t stored, hid_t native,
+                     const std::vector<hsize_t>& shape, const void* data) {
+  const Handle extent = space(shape);
+  Handle attribute(H5Acreate2(object, name, stored, extent, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  check(H5Awrite(attribute, native, data));
+  attribute.close();
+}
+
+void write_integer(hid_t object, const char* name, std::uint64_t value) {
+  write_attribute(object, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, {}, &value);
+}
+
+void write_number(hid_t object, const char* name, double value) {
+  write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &value);
+}
+
+void write_text(hid_t object, const char* name, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  check(H5Tset_size(type, H5T_VARIABLE));
+  check(H5Tset_cset(type, H5T_CSET_UTF8));
+  const char* text = value.c_str();
+  write_attribute(object, name, type, type, {}, &text);
+}
+
+// HDF5 grows the file in memory by this much at a time.
+constexpr std::size_t memory_increment = 1 << 22;
+
+hid_t create_in_memory() {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  check(H5Pset_fapl_core(access, memory_increment, false));
+  return H5Fcreate("signals", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+}
+
+std::vector<char> image_of(hid_t file) {
+  check(H5Fflush(file, H5F_SCOPE_LOCAL));
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size <= 0) throw FileError(not_written);
+  std::vector<char> image(static_cast<std::size_t>(size));
+  if (H5Fget_file_image(file, image.data(), image.size()) != size) throw FileError(not_written);
+  return image;
+}
+
+}  // namespace
+
+struct SignalsFile::Open {
+  Handle file;
+};
+
+SignalsFile::SignalsFile(const std::filesystem::path& target, const std::string& program)
+    : target_(target), temporary_(target.string() + ".part" + std::to_string(getpid())) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
+  std::error_code status;
+  if (std::filesystem::is_directory(target_, status)) throw FileError(target_.string() + " is a directory");
+  // To know now, not after hours of solving, whether the folder takes a file.
+  if (!std::ofstream(temporary_, std::ios::binary)) {
+    throw FileError("cannot write " + target_.string() + ": " + std::strerror(errno));
+  }
+  try {
+    open_.reset(new Open{{create_in_memory(), H5Fclose}});
+    write_integer(open_->file, "schema", 1);
+    write_text(open_->file, "program", program);
+  } catch (...) {
+    std::filesystem::remove(temporary_, status);
+    throw;
+  }
+}
+
+SignalsFile::~SignalsFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+}
+
+void SignalsFile::write(const StripCase& strip, const CaseResult& result) {
+  Handle group(H5Gcreate2(open_->file, strip.id.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const hsize_t samples = result.time.size();
+  write_dataset(group, "time", {samples}, result.time);
+  write_dataset(group, "points", {samples, strip.receivers.points.size(), 2}, result.points);
+  write_dataset(group, "sections", {samples, strip.receivers.sections.size(), 2}, result.sections);
+  const std::array<std::uint64_t, 2> elements{strip.elements[0], strip.elements[1]};
+  write_attribute(group, "elements", H5T_STD_U64LE, H5T_NATIVE_UINT64, {2}, elements.data());
+  write_integer(group, "degree", static_cast<std::uint64_t>(strip.degree));
+  write_integer(group, "dofs", result.dofs);
+  write_integer(group, "steps", result.steps);
+  write_number(group, "critical_time_step", result.critical_time_step);
+  write_number(group, "time_step", result.time_step);
+  write_number(group, "solve_seconds", result.solve_seconds);
+  if (result.energy_drift) write_number(group, "energy_drift", *result.energy_drift);
+  write_text(group, "status", result.status);
+  group.close();
+}
+
+void SignalsFile::commit() {
+  const std::vector<char> image = image_of(open_->file);
+  std::ofstream stream(temporary_, std::ios::binary | std::ios::trunc);
+  stream.write(image.data(), static_cast<std::streamsize>(image.size()));
+  stream.close();
+  if (!stream) throw FileError("cannot write " + target_.string() + ": " + std::strerror(errno));
+  std::error_code status;
+  std::filesystem::rename(temporary_, target_, status);
+  if (status) throw FileError("cannot write " + target_.string() + ": " + status.message());
+  temporary_.clear();
+}
+
+}  // namespace ddem::fem

@@ -1,0 +1,40 @@
+#pragma once
+// From a case to what the kernel needs, by gmsh and deal.II: nodes, elements, edges, receivers. This header
+// and everything that uses it know no deal.II.
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fem_reference/cases.h"
+#include "fem_reference/kernel/element_mesh.h"
+
+namespace ddem::fem {
+
+/// A linear functional of nodal values: sum of weight * value(node).
+using NodeWeights = std::vector<std::pair<std::uint32_t, double>>;
+
+struct StripModel {
+  ElementMesh mesh;       ///< nodes ordered along x first; periodic nodes merged
+  std::vector<double> x;  ///< of each node, m
+  std::vector<std::uint32_t> left_nodes, right_nodes;
+  std::vector<NodeWeights> points;    ///< value at each point of the receivers
+  std::vector<NodeWeights> sections;  ///< average over the height at each section, exact for the elements
+};
+
+/// Builds models; keeps each mesh that gmsh has made, since many cases of a campaign share one.
+class StripModeller {
+ public:
+  StripModeller();
+  ~StripModeller();
+
+  /// Throws std::runtime_error if gmsh or deal.II fail.
+  StripModel model(const StripCase& strip);
+
+ private:
+  struct Meshes;
+  std::unique_ptr<Meshes> meshes_;
+};
+
+}  // namespace ddem::fem

@@ -1,0 +1,202 @@
+#include "harness/campaign/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ddem::harness {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+reports::Color color_of(Model model) {
+  switch (model) {
+    case Model::dem: return reports::Color::blue;
+    case Model::lagged_normal: return reports::Color::vermilion;
+    case Model::lagged_full: return reports::Color::green;
+  }
+  return reports::Color::automatic;
+}
+
+/// The ratio whose signals are drawn: the one nearest to 0.3.
+double shown_ratio(const CampaignResults& r) {
+  const auto& ratios = r.campaign.stiffness_ratios;
+  return *std::min_element(ratios.begin(), ratios.end(), [](double a, double b) { return std::abs(a - 0.3) < std::abs(b - 0.3); });
+}
+
+std::vector<double> times(const Recording& recording, std::size_t samples) {
+  std::vector<double> t(samples);
+  for (std::size_t n = 0; n < samples; ++n) t[n] = static_cast<double>(n) * recording.sample_interval;
+  return t;
+}
+
+reports::Plot velocity_panel(const CampaignResults& r, StripWave wave) {
+  reports::Plot plot{.title = fmt::format("{} wave", name(wave)), .x = {.label = "k_t/k_n"}, .y = {.label = "velocity", .unit = "m/s"}};
+  for (const Model model : r.campaign.models) {
+    reports::Series measured{.name = name(model), .kind = reports::SeriesKind::markers, .color = color_of(model)};
+    reports::Series statics{.name = name(model) + ", static", .color = color_of(model)};
+    reports::Series kinematic{.name = name(model) + ", kinematic", .color = color_of(model), .dash = reports::Dash::dotted};
+    for (const double ratio : r.campaign.stiffness_ratios) {
+      const SpeedPoint s = random_speed(r, model, ratio, Protocol::long_wave, wave);
+      measured.x.push_back(ratio), measured.y.push_back(s.measured.value), measured.error.push_back(s.measured.stddev);
+      statics.x.push_back(ratio), statics.y.push_back(s.statics);
+      kinematic.x.push_back(ratio), kinematic.y.push_back(s.kinematic);
+    }
+    plot.series.push_back(measured);
+    plot.series.push_back(statics);
+    plot.series.push_back(kinematic);
+  }
+  reports::Series fem{.name = "finite elements (first seed)", .kind = reports::SeriesKind::markers, .color = reports::Color::black};
+  for (const FemOutcome& f : r.fem) {
+    if (f.wave != wave || f.uniaxial) continue;
+    fem.x.push_back(f.key.stiffness_ratio);
+    fem.y.push_back(f.speed.value_or(kNone));
+  }
+  if (!fem.x.empty()) plot.series.push_back(fem);
+  return plot;
+}
+
+}  // namespace
+
+SpeedPoint random_speed(const CampaignResults& r, Model model, double ratio, Protocol protocol, StripWave wave) {
+  std::vector<double> measured, statics, kinematic;
+  for (const std::int64_t seed : r.campaign.seeds) {
+    const WaveOutcome* w = r.find(StripCase{StripPacking::random, seed, model, ratio, protocol, wave});
+    measured.push_back(w != nullptr ? w->speed.value_or(kNone) : kNone);
+    statics.push_back(w != nullptr ? w->static_speed : kNone);
+    kinematic.push_back(w != nullptr ? w->kinematic_speed : kNone);
+  }
+  return {sample_statistics(measured), sample_statistics(statics).value, sample_statistics(kinematic).value};
+}
+
+PoissonCurve poisson_curve(const CampaignResults& r, Model model) {
+  PoissonCurve curve;
+  const auto nu = [](double p, double s) { return 1.0 - 2.0 * (s / p) * (s / p); };
+  for (const double ratio : r.campaign.stiffness_ratios) {
+    std::vector<double> measured, statics;
+    for (const std::int64_t seed : r.campaign.seeds) {
+      const WaveOutcome* p = r.find(StripCase{StripPacking::random, seed, model, ratio, Protocol::long_wave, StripWave::p});
+      const WaveOutcome* s = r.find(StripCase{StripPacking::random, seed, model, ratio, Protocol::long_wave, StripWave::shear});
+      const bool both = p != nullptr && s != nullptr;
+      measured.push_back(both ? nu(p->speed.value_or(kNone), s->speed.value_or(kNone)) : kNone);
+      statics.push_back(both ? nu(p->static_speed, s->static_speed) : kNone);
+    }
+    const Uncertain m = sample_statistics(measured);
+    curve.ratio.push_back(ratio);
+    curve.mean.push_back(m.value);
+    curve.stddev.push_back(m.stddev);
+    curve.statics.push_back(sample_statistics(statics).value);
+  }
+  return curve;
+}
+
+reports::Figure poisson_figure(const CampaignResults& r) {
+  reports::Plot random{.title = "random packings", .x = {.label = "k_t/k_n"}, .y = {.label = "Poisson's ratio"}};
+  reports::Plot lattice{.title = "hexagonal lattice", .x = {.label = "k_t/k_n"}, .y = {.label = "Poisson's ratio"}};
+  for (const Model model : r.campaign.models) {
+    const PoissonCurve c = poisson_curve(r, model);
+    random.series.push_back({.name = name(model), .kind = reports::SeriesKind::markers, .x = c.ratio, .y = c.mean, .error = c.stddev, .color = color_of(model)});
+    random.series.push_back({.name = name(model) + ", reference", .x = c.ratio, .y = c.statics, .color = color_of(model)});
+    reports::Series measured{.name = name(model), .kind = reports::SeriesKind::markers, .color = color_of(model)};
+    reports::Series closed{.name = name(model) + ", reference", .color = color_of(model)};
+    for (const StaticOutcome& s : r.statics) {
+      if (s.key.packing != StripPacking::hexagonal || s.key.model != model) continue;
+      const WaveOutcome* p = r.find(StripCase{StripPacking::hexagonal, 0, model, s.key.stiffness_ratio, Protocol::long_wave, StripWave::p});
+      const WaveOutcome* sh = r.find(StripCase{StripPacking::hexagonal, 0, model, s.key.stiffness_ratio, Protocol::long_wave, StripWave::shear});
+      const bool both = p != nullptr && sh != nullptr && p->speed && sh->speed;
+      measured.x.push_back(s.key.stiffness_ratio);
+      measured.y.push_back(both ? 1.0 - 2.0 * (*sh->speed / *p->speed) * (*sh->speed / *p->speed) : kNone);
+      closed.x.push_back(s.key.stiffness_ratio);
+      closed.y.push_back((s.kinematic.bulk - s.kinematic.shear) / (s.kinematic.bulk + s.kinematic.shear));
+    }
+    lattice.series.push_back(measured);
+    lattice.series.push_back(closed);
+  }
+  for (reports::Plot* plot : {&random, &lattice}) {
+    plot->references.push_back({.value = 1.0 / 3.0, .label = "1/3, dense DEM"});
+  }
+  return {.id = "poisson-ratio",
+          .title = "Poisson's ratio over k_t/k_n",
+          .caption = "Marks: from P and shear velocities (bars: scatter over seeds). Lines: static moduli of the same packings (left), closed "
+                     "form (right). DDEM lies above DEM everywhere; sparse packings exceed 1/3 even without particle strain. Where the published scheme is unstable on the lattice "
+                     "(N, k_t/k_n above 1/3) there is no mark.",
+          .panels = {random, lattice}};
+}
+
+reports::Figure velocity_figure(const CampaignResults& r) {
+  return {.id = "velocities",
+          .title = "Wave velocities over k_t/k_n, random packings",
+          .caption = "Marks: measured on driven pulses (bars: scatter over seeds). Full lines: static directional speeds of the same packings, for "
+                     "the bar of the very strip with its free edges. Dotted: kinematic estimate, which no packing exceeds.",
+          .panels = {velocity_panel(r, StripWave::bar), velocity_panel(r, StripWave::shear), velocity_panel(r, StripWave::p)}};
+}
+
+reports::Figure strip_figure(const CampaignResults& r) {
+  const StripPicture& p = r.picture;
+  reports::Strip strip{.x = p.packing.x, .y = p.packing.y, .radius = p.packing.radius, .value = p.displacement,
+                       .value_axis = {.label = "displacement along x", .unit = "m"}};
+  for (std::size_t k = 0; k < p.probe_x.size(); ++k) strip.probes.push_back({p.probe_x[k], p.probe_y[k], p.probe_labels[k]});
+  return {.id = "strip",
+          .title = "The random strip and its probes",
+          .caption = fmt::format("{} discs of the first seed at the end of a column release (bar). The wave travels from left to right; "
+                                 "velocities are measured from A1 to A2, B1 to B2 and so on.",
+                                 p.packing.size()),
+          .panels = {strip}};
+}
+
+reports::Figure paper_figure(const CampaignResults& r) {
+  reports::Figure figure{.id = "paper-signals",
+                         .title = "Displacement over time at the five pairs of probes, column release",
+                         .caption = "Rings: the picked peaks, whose delay gives the velocity of the pair. First seed, plain DEM."};
+  const double ratio = shown_ratio(r);
+  for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
+    const WaveOutcome* w = r.find(StripCase{StripPacking::random, r.campaign.seeds.front(), r.campaign.models.front(), ratio, Protocol::paper, wave});
+    reports::Plot plot{.title = fmt::format("{}, k_t/k_n = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
+    if (w != nullptr) {
+      for (std::size_t p = 0; p < w->recording.signals.size(); ++p) {
+        const PickedSignal& s = w->recording.signals[p];
+        const std::string label = fmt::format("{}{}", static_cast<char>('A' + static_cast<int>(p / 2)), p % 2 + 1);
+        static constexpr reports::Color kColors[] = {reports::Color::blue, reports::Color::vermilion, reports::Color::green, reports::Color::orange, reports::Color::purple};
+        plot.series.push_back({.name = label, .x = times(w->recording, s.values.size()), .y = s.values, .color = kColors[p / 2 % 5],
+                               .dash = p % 2 == 0 ? reports::Dash::solid : reports::Dash::dashed});
+        if (s.pick_time) plot.picks.push_back({.x = *s.pick_time, .y = s.pick_amplitude, .series = label});
+      }
+    }
+    figure.panels.emplace_back(plot);
+  }
+  figure.columns = 1;
+  return figure;
+}
+
+reports::Figure waveform_figure(const CampaignResults& r) {
+  reports::Figure figure{.id = "waveforms",
+                         .title = "Particles over continuum: a driven pulse at two sections",
+                         .caption = "Full lines: particles, averaged over the discs of a section. Dashed: finite elements with the static moduli of the same "
+                                    "packing. The published scheme damps (its strains lag by a step), so that its pulse is lower."};
+  const double ratio = shown_ratio(r);
+  for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
+    reports::Plot plot{.title = fmt::format("{}, k_t/k_n = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
+    for (const Model model : r.campaign.models) {
+      const StripMaterial key{StripPacking::random, r.campaign.seeds.front(), model, ratio};
+      const WaveOutcome* w = r.find(StripCase{key.packing, key.seed, model, ratio, Protocol::long_wave, wave});
+      const FemOutcome* f = r.find(key, wave);
+      for (const std::size_t p : {0u, 1u}) {
+        if (w != nullptr && p < w->recording.signals.size()) {
+          const auto& v = w->recording.signals[p].values;
+          plot.series.push_back({.name = name(model), .x = times(w->recording, v.size()), .y = v, .color = color_of(model)});
+        }
+        if (f != nullptr && p < f->recording.signals.size()) {
+          const auto& v = f->recording.signals[p].values;
+          plot.series.push_back({.name = name(model) + ", finite elements", .x = times(f->recording, v.size()), .y = v, .color = color_of(model), .dash = reports::Dash::dashed});
+        }
+      }
+    }
+    figure.panels.emplace_back(plot);
+  }
+  figure.columns = 1;
+  return figure;
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,32 @@
+#pragma once
+// The figures of a campaign's report, and the means over seeds that they and its tables show.
+
+#include <vector>
+
+#include "harness/campaign/results.h"
+#include "reports/figure.h"
+
+namespace ddem::harness {
+
+/// Means over the seeds of the random packings. Not-a-number where a seed was not measured.
+struct SpeedPoint {
+  Uncertain measured;
+  double statics = 0.0, kinematic = 0.0;
+};
+SpeedPoint random_speed(const CampaignResults& results, Model model, double ratio, Protocol protocol, StripWave wave);
+
+/// nu = 1 - 2 (c_s/c_p)^2 over k_t/k_n: mean and scatter over seeds, and the same from static speeds.
+struct PoissonCurve {
+  std::vector<double> ratio, mean, stddev, statics;
+};
+PoissonCurve poisson_curve(const CampaignResults& results, Model model);
+
+reports::Figure poisson_figure(const CampaignResults& results);
+reports::Figure velocity_figure(const CampaignResults& results);
+reports::Figure strip_figure(const CampaignResults& results);
+/// Displacement over time at the pairs of probes, with picks: the paper's protocol.
+reports::Figure paper_figure(const CampaignResults& results);
+/// Particles over continuum for the driven pulse.
+reports::Figure waveform_figure(const CampaignResults& results);
+
+}  // namespace ddem::harness

@@ -1,0 +1,102 @@
+#include "harness/campaign/report_content.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/campaign/figures.h"
+#include "harness/provenance/provenance.h"
+
+namespace ddem::harness {
+namespace {
+
+std::string range_text(const std::vector<double>& values) {
+  std::vector<double> finite;
+  for (const double v : values) {
+    if (std::isfinite(v)) finite.push_back(v);
+  }
+  if (finite.empty()) return "not measured";
+  const auto [lo, hi] = std::minmax_element(finite.begin(), finite.end());
+  return fmt::format("{:.3f} to {:.3f}", *lo, *hi);
+}
+
+std::vector<reports::Headline> headlines(const CampaignResults& r) {
+  std::vector<reports::Headline> out;
+  for (const Model model : r.campaign.models) {
+    const PoissonCurve measured = poisson_curve(r, model);
+    out.push_back({fmt::format("Poisson's ratio, {}", name(model)), range_text(measured.mean),
+                   "random packings, from P and shear waves, over k_t/k_n"});
+  }
+  return out;
+}
+
+reports::Table speed_table(const CampaignResults& r, Protocol protocol) {
+  reports::Table t;
+  t.caption = protocol == Protocol::paper
+                  ? "The paper's protocol: column release, single discs, peak to peak; random packings, mean over seeds."
+                  : "Driven long pulse, section averages; random packings, mean over seeds.";
+  t.columns = {{"model"}, {"k_t/k_n", "", 3}, {"wave"}, {"measured", "m/s", 5}, {"± seeds", "m/s", 2}, {"static", "m/s", 5}, {"kinematic", "m/s", 5}, {"measured / static − 1", "%", 3}};
+  for (const Model model : r.campaign.models) {
+    for (const double ratio : r.campaign.stiffness_ratios) {
+      for (const StripWave wave : {StripWave::bar, StripWave::shear, StripWave::p}) {
+        if (protocol == Protocol::paper && wave == StripWave::p) continue;
+        const SpeedPoint s = random_speed(r, model, ratio, protocol, wave);
+        t.rows.push_back({name(model), ratio, name(wave), s.measured.value, s.measured.stddev, s.statics, s.kinematic,
+                          100.0 * (s.measured.value / s.statics - 1.0)});
+      }
+    }
+  }
+  return t;
+}
+
+reports::Section overview(const CampaignResults& r) {
+  return {.heading = "Poisson's ratio and wave velocities",
+          .paragraphs = {"A standard DEM of bonded discs couples elasticity to the contact stiffnesses alone. In DDEM every disc also "
+                         "takes a uniform strain from the mean stress of its contact forces, which changes the overlap at all its contacts. "
+                         "Velocities are measured on driven pulses much longer than a disc, and compared with static moduli of the very "
+                         "same assemblies, with kinematic closed forms, and with a finite-element model that has the static moduli."},
+          .figures = {poisson_figure(r), velocity_figure(r)},
+          .tables = {speed_table(r, Protocol::long_wave)}};
+}
+
+reports::Section waves(const CampaignResults& r) {
+  return {.heading = "Waves",
+          .paragraphs = {"Each probe's signal is searched for its largest peak between the first possible arrival and the first "
+                         "reflection; a quadratic through the top 6 % of the pulse gives the time. A pick that fails is reported "
+                         "with its reason and gives no velocity."},
+          .figures = {strip_figure(r), paper_figure(r), waveform_figure(r)}};
+}
+
+reports::Section paper(const CampaignResults& r) {
+  return {.heading = "The paper's protocol",
+          .paragraphs = {"The discs of the left edge are displaced and let go. Such a source sends waves as short as the discs, which "
+                         "disperse; the bar is narrow, so that its free edges soften it, and its wave disperses further. The table "
+                         "compares with the static speed of the same strips: differences are errors of the protocol, not of the moduli."},
+          .tables = {speed_table(r, Protocol::paper)}};
+}
+
+}  // namespace
+
+reports::Report report_of(const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
+  const StripCampaign& s = r.campaign;
+  reports::Report report;
+  report.title = s.title;
+  report.summary = {fmt::format("Strips of {:g} mm × {:g} mm: {} random discs (coordination {:g}, seeds {}) and a hexagonal lattice of {} × {}; "
+                                "disc density {:g} kg/m³, k_n = {:g} N/m, k_n/E_p = {:g}, nu_p = {:g}. DDEM is the published scheme: the "
+                                "strains of the discs come from the forces of the step before. N corrects normal overlaps, as published; "
+                                "F corrects both and derives from an energy.",
+                                s.length * 1e3, s.width * 1e3, s.discs, s.coordination, fmt::join(s.seeds, ", "), s.columns, s.rows, s.density,
+                                s.normal_stiffness, s.normal_stiffness / s.particle_modulus, s.particle_poisson_ratio)};
+  report.headlines = headlines(r);
+  report.verdicts = verdicts;
+  report.sections = {overview(r), waves(r), paper(r)};
+  report.provenance = provenance();
+  report.provenance.emplace_back("simulations", std::to_string(r.waves.size()));
+  report.provenance.emplace_back("finite-element runs", r.fem_failure.empty() ? std::to_string(r.fem.size()) : r.fem_failure);
+  report.provenance.emplace_back("seeds", fmt::format("{}", fmt::join(s.seeds, ", ")));
+  report.provenance.emplace_back("wall time", fmt::format("{:.1f} s", r.wall_seconds));
+  return report;
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,13 @@
+#pragma once
+// The report of a campaign: which figures and tables, filled with its results.
+
+#include <vector>
+
+#include "harness/campaign/results.h"
+#include "reports/report.h"
+
+namespace ddem::harness {
+
+reports::Report report_of(const CampaignResults& results, const std::vector<reports::Verdict>& verdicts);
+
+}  // namespace ddem::harness

@@ -1,0 +1,44 @@
+#include "harness/campaign/results.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/references/lattice_stability.h"
+
+namespace ddem::harness {
+
+const StaticOutcome* CampaignResults::find(const StripMaterial& key) const {
+  const auto it = std::find_if(statics.begin(), statics.end(), [&](const StaticOutcome& s) { return s.key == key; });
+  return it == statics.end() ? nullptr : &*it;
+}
+
+const WaveOutcome* CampaignResults::find(const StripCase& c) const {
+  const std::string id = id_of(c);
+  const auto it = std::find_if(waves.begin(), waves.end(), [&](const WaveOutcome& w) { return id_of(w.c) == id; });
+  return it == waves.end() ? nullptr : &*it;
+}
+
+const FemOutcome* CampaignResults::find(const StripMaterial& key, StripWave wave) const {
+  const auto it = std::find_if(fem.begin(), fem.end(),
+                               [&](const FemOutcome& f) { return f.key == key && f.wave == wave && !f.uniaxial; });
+  return it == fem.end() ? nullptr : &*it;
+}
+
+Uncertain sample_statistics(const std::vector<double>& values) {
+  double mean = 0.0, squares = 0.0;
+  for (const double v : values) mean += v;
+  mean /= static_cast<double>(values.size());
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return {mean, values.size() > 1 ? std::sqrt(squares / static_cast<double>(values.size() - 1)) : 0.0};
+}
+
+bool expected_unstable(const StripCampaign& s, const StripCase& c) {
+  if (c.model == Model::dem || c.packing != StripPacking::hexagonal) return false;
+  const bool normal = c.model == Model::lagged_normal;
+  if (normal && c.stiffness_ratio > references::hexagonal_normal_ratio_limit) return true;
+  const double limit = references::hexagonal_fixed_point_limit(
+      normal ? references::ContactModel::ddem_normal : references::ContactModel::ddem_full, s.particle_poisson_ratio, c.stiffness_ratio);
+  return s.normal_stiffness / s.particle_modulus > limit;
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,117 @@
+#pragma once
+// What a campaign found: plain data from which verdicts, files and the report are made.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/statics/moduli.h"
+#include "harness/campaign/strip_campaign.h"
+#include "harness/measure/elastic_constants.h"
+#include "harness/run/scene_moduli.h"
+
+namespace ddem::harness {
+
+/// Which assembly with which contact law: everything but the wave.
+struct StripMaterial {
+  StripPacking packing = StripPacking::hexagonal;
+  std::int64_t seed = 0;
+  Model model = Model::dem;
+  double stiffness_ratio = 0.0;
+
+  bool operator==(const StripMaterial&) const = default;
+};
+
+struct Speeds {
+  double bar = 0.0, shear = 0.0, p = 0.0;
+  double of(StripWave wave) const { return wave == StripWave::bar ? bar : wave == StripWave::shear ? shear : p; }
+};
+
+/// References of one assembly and law, from static solves and closed forms.
+struct StaticOutcome {
+  StripMaterial key;
+  std::string failure;  ///< empty: ok
+  SceneModuli moduli;   ///< of the strip; bar from the pulled free strip
+  Speeds speeds;        ///< static, directional
+  references::PlaneModuli kinematic;  ///< closed form: exact on the lattice, an estimate on a random packing
+  Speeds kinematic_speeds;
+  /// Hexagonal only: homogenised unit cell, to be compared with the closed form.
+  std::optional<IsotropicModuli> cell;
+};
+
+struct PickedSignal {
+  std::string probe;
+  double x = 0.0;                     ///< m, from the source
+  std::vector<double> values;         ///< m
+  std::optional<double> pick_time, pick_amplitude;
+  std::string pick_failure;
+};
+
+/// A recording kept for the figures.
+struct Recording {
+  double sample_interval = 0.0;  ///< s
+  std::vector<PickedSignal> signals;
+};
+
+/// One simulation.
+struct WaveOutcome {
+  StripCase c;
+  std::string scene;    ///< its scene file
+  std::string failure;  ///< why there is no speed; empty: ok
+  bool diverged = false;
+  long diverged_step = 0;
+  int diverged_disc = 0;
+  std::vector<std::string> warnings;
+  std::optional<double> speed, speed_stddev;  ///< m/s, over its pairs of probes
+  int good_pairs = 0;
+  double static_speed = 0.0, kinematic_speed = 0.0;
+  double time_step = 0.0, critical_time_step = 0.0;
+  long steps = 0;
+  std::optional<double> energy_drift;
+  Recording recording;
+};
+
+/// One finite-element run: the continuum with the static moduli of an assembly.
+struct FemOutcome {
+  StripMaterial key;
+  StripWave wave = StripWave::shear;
+  bool uniaxial = false;  ///< the same bar with nu = 0, which is not dispersive: checks the program itself
+  std::string failure;
+  std::optional<double> speed;
+  double analytical_speed = 0.0;
+  long dofs = 0, steps = 0;
+  double solve_seconds = 0.0;
+  Recording recording;
+};
+
+/// The random strip of the first seed, for its picture: positions, the displacement of a long wave at the end of the
+/// run, and the probes of the paper's protocol.
+struct StripPicture {
+  Packing packing;
+  std::vector<double> displacement;
+  std::vector<double> probe_x, probe_y;
+  std::vector<std::string> probe_labels;
+};
+
+struct CampaignResults {
+  StripCampaign campaign;
+  std::vector<StaticOutcome> statics;
+  std::vector<WaveOutcome> waves;
+  std::vector<FemOutcome> fem;
+  std::string fem_failure;  ///< why there are no finite-element results at all
+  StripPicture picture;
+  double wall_seconds = 0.0;
+
+  const StaticOutcome* find(const StripMaterial& key) const;
+  const WaveOutcome* find(const StripCase& c) const;
+  const FemOutcome* find(const StripMaterial& key, StripWave wave) const;
+};
+
+/// Mean and standard deviation of the sample (n - 1).
+Uncertain sample_statistics(const std::vector<double>& values);
+
+/// Whether theory says that the published scheme is unstable there: on the lattice beyond the fixed-point limit, or N
+/// with k_t/k_n above 1/3 (theory section 3); on random packings nothing exact is known.
+bool expected_unstable(const StripCampaign& campaign, const StripCase& c);
+
+}  // namespace ddem::harness

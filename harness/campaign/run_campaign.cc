@@ -1,0 +1,267 @@
+#include "harness/campaign/run_campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "harness/campaign/worker_pool.h"
+#include "harness/io/errors.h"
+#include "harness/model/assemble.h"
+#include "harness/run/dem_run.h"
+#include "harness/run/fem_plan.h"
+
+namespace ddem::harness {
+namespace {
+
+/// The shortest travel in the strip that a diverging lagged run is given to show it.
+constexpr long kStepsToDiverge = 30000;
+
+std::vector<StripMaterial> materials_of(const StripCampaign& s) {
+  std::vector<StripMaterial> keys;
+  for (const Model model : s.models) {
+    for (const double ratio : s.stiffness_ratios) {
+      keys.push_back({StripPacking::hexagonal, 0, model, ratio});
+      for (const std::int64_t seed : s.seeds) keys.push_back({StripPacking::random, seed, model, ratio});
+    }
+  }
+  return keys;
+}
+
+StripCase case_of(const StripMaterial& m, StripWave wave, Protocol protocol = Protocol::long_wave) {
+  return {m.packing, m.seed, m.model, m.stiffness_ratio, protocol, wave};
+}
+
+bool keeps_recording(const StripCampaign& s, const StripCase& c) {
+  return c.packing == StripPacking::hexagonal || c.seed == s.seeds.front();
+}
+
+StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, const CampaignOptions& options) {
+  StaticOutcome out;
+  out.key = key;
+  try {
+    const Scene scene = scene_of(assembly_text(s, case_of(key, StripWave::bar), false), "statics");
+    out.moduli = scene_moduli(scene);
+    const DirectionalSpeeds speeds = out.moduli.speeds().value();
+    out.speeds = {speeds.bar, speeds.s, speeds.p};
+    const ddem::Assembly closed = build_laterally_closed(scene).value();
+    // A lattice's cell has all its bonds; a strip's ends have not.
+    if (key.packing == StripPacking::hexagonal) {
+      StripCampaign small = s;
+      small.columns = small.rows = 8;
+      Scene cell = scene_of(assembly_text(small, case_of(key, StripWave::p), true), "cell");
+      out.kinematic = kinematic_moduli(cell, build_assembly(cell));
+      if (options.disturb_scene) options.disturb_scene(cell);
+      out.cell = scene_moduli(cell).isotropic();
+    } else {
+      out.kinematic = kinematic_moduli(scene, closed);
+    }
+    const auto k = references::bulk_wave_speeds(out.kinematic, out.moduli.bulk_density);
+    out.kinematic_speeds = {k.bar, k.shear, k.p};
+  } catch (const std::exception& e) {
+    out.failure = e.what();
+  }
+  return out;
+}
+
+Recording record(const std::vector<std::vector<double>>& signals, double dt, const ProbeLayout& layout, double source,
+                 const std::optional<WaveMeasurement>& measurement) {
+  Recording r;
+  r.sample_interval = dt;
+  for (std::size_t p = 0; p < layout.probes.size(); ++p) {
+    PickedSignal s{layout.probes[p].name, layout.probes[p].x - source, signals[p], {}, {}, ""};
+    if (measurement && measurement->picks[p].pick.ok()) {
+      s.pick_time = measurement->picks[p].pick.value().time;
+      s.pick_amplitude = measurement->picks[p].pick.value().amplitude;
+    } else if (measurement) {
+      s.pick_failure = measurement->picks[p].pick.error().reason;
+    }
+    r.signals.push_back(std::move(s));
+  }
+  return r;
+}
+
+void take_speed(const WaveMeasurement& m, std::optional<double>& speed, std::optional<double>& stddev, std::string& failure) {
+  if (m.speed.speed.ok()) {
+    speed = m.speed.speed.value().mean;
+    stddev = m.speed.speed.value().stddev;
+  } else {
+    failure = m.speed.speed.error().reason;
+  }
+}
+
+WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const StaticOutcome& statics,
+                          const CampaignOptions& options, StripPicture* picture) {
+  WaveOutcome out;
+  out.c = c;
+  out.static_speed = statics.speeds.of(c.wave);
+  out.kinematic_speed = statics.kinematic_speeds.of(c.wave);
+  if (!statics.failure.empty()) {
+    out.failure = "no static reference: " + statics.failure;
+    return out;
+  }
+  out.scene = scene_text(s, c, out.static_speed);
+  try {
+    Scene scene = scene_of(out.scene, id_of(c));
+    if (options.disturb_scene) options.disturb_scene(scene);
+    if (expected_unstable(s, c)) scene.time.end = EndSteps{kStepsToDiverge};
+    const DemRun run = run_scene(scene, {out.static_speed, {}});
+    out.warnings = run.warnings;
+    out.time_step = run.time_step;
+    out.critical_time_step = run.critical_time_step;
+    out.steps = run.result.steps_done;
+    out.energy_drift = run.result.energy_drift;
+    if (run.result.divergence) {
+      out.diverged = true;
+      out.diverged_step = run.result.divergence->step;
+      out.diverged_disc = run.result.divergence->disc;
+      out.failure = fmt::format("diverged at step {}, disc {}", out.diverged_step, out.diverged_disc);
+      return out;
+    }
+    take_speed(*run.measurement, out.speed, out.speed_stddev, out.failure);
+    out.good_pairs = static_cast<int>(run.measurement->speed.good_pairs);
+    if (keeps_recording(s, c)) {
+      out.recording = record(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context.left_end,
+                             run.measurement);
+    }
+    if (picture != nullptr) {
+      picture->packing = run.assembly.packing;
+      picture->displacement = c.wave == StripWave::shear ? run.result.final_state.uy : run.result.final_state.ux;
+    }
+  } catch (const std::exception& e) {
+    out.failure = e.what();
+  }
+  return out;
+}
+
+/// The continuum with the static moduli of the first random strip, all models and ratios, and one bar with nu = 0.
+std::vector<FemOutcome> fem_outcomes(const StripCampaign& s) {
+  std::vector<FemOutcome> out;
+  for (const Model model : s.models) {
+    for (const double ratio : s.stiffness_ratios) {
+      for (const StripWave wave : {StripWave::bar, StripWave::shear, StripWave::p}) {
+        FemOutcome f;
+        f.key = {StripPacking::random, s.seeds.front(), model, ratio};
+        f.wave = wave;
+        out.push_back(f);
+      }
+    }
+  }
+  FemOutcome uniaxial;
+  uniaxial.key = {StripPacking::random, s.seeds.front(), s.models.front(), s.stiffness_ratios.front()};
+  uniaxial.wave = StripWave::bar;
+  uniaxial.uniaxial = true;
+  out.push_back(uniaxial);
+  return out;
+}
+
+FemPlan plan_outcome(const StripCampaign& s, const FemOutcome& f, const StaticOutcome& statics, const CampaignOptions& options) {
+  const StripCase c = case_of(f.key, f.wave);
+  Scene scene = scene_of(scene_text(s, c, statics.speeds.of(f.wave)), id_of(c));
+  scene.continuum = Continuum{};
+  scene.continuum->degree = s.fem_degree;
+  scene.continuum->elements = s.fem_elements;
+  FemPlan plan = plan_fem(scene, statics.moduli);
+  if (f.uniaxial) plan.fem.material.poisson_ratio = 0.0;
+  if (options.disturb_continuum) options.disturb_continuum(plan.fem.material);
+  return plan;
+}
+
+void run_all_fem(const StripCampaign& s, CampaignResults& results, const CampaignOptions& options) {
+  std::vector<FemPlan> plans;
+  std::vector<FemCase> cases;
+  std::vector<std::size_t> planned;
+  for (std::size_t k = 0; k < results.fem.size(); ++k) {
+    FemOutcome& f = results.fem[k];
+    const StaticOutcome* statics = results.find(f.key);
+    if (statics == nullptr || !statics->failure.empty()) {
+      f.failure = "no static reference";
+      continue;
+    }
+    try {
+      plans.push_back(plan_outcome(s, f, *statics, options));
+    } catch (const std::exception& e) {
+      f.failure = e.what();
+      continue;
+    }
+    f.analytical_speed = statics->speeds.of(f.wave);
+    plans.back().fem.id = std::to_string(k);
+    cases.push_back(plans.back().fem);
+    planned.push_back(k);
+  }
+  try {
+    const auto fem = run_fem(cases, [&] { if (options.on_progress) options.on_progress(1); });
+    for (std::size_t n = 0; n < fem.size(); ++n) {
+      FemOutcome& f = results.fem[planned[n]];
+      f.dofs = fem[n].dofs;
+      f.steps = fem[n].steps;
+      f.solve_seconds = fem[n].solve_seconds;
+      if (fem[n].status != "ok") {
+        f.failure = fem[n].status;
+        continue;
+      }
+      const auto& signals = receiver_signals(plans[n], fem[n], f.wave == StripWave::shear ? Wave::shear : Wave::longitudinal);
+      const auto measurement = measure_wave(signals, fem[n].sample_interval, plans[n].layout, plans[n].context);
+      std::optional<double> unused;
+      take_speed(measurement, f.speed, unused, f.failure);
+      f.recording = record(signals, fem[n].sample_interval, plans[n].layout, plans[n].context.left_end, measurement);
+    }
+  } catch (const std::exception& e) {
+    results.fem_failure = e.what();
+  }
+}
+
+void place_probes(const StripCampaign& s, StripPicture& picture) {
+  StripCase c{StripPacking::random, s.seeds.front(), Model::dem, s.stiffness_ratios.front(), Protocol::paper, StripWave::bar};
+  const Scene scene = scene_of(scene_text(s, c, 1.0), "picture");
+  const ProbeLayout layout = lay_probes(scene, build_assembly(scene));
+  for (std::size_t p = 0; p < layout.probes.size(); ++p) {
+    picture.probe_x.push_back(layout.probes[p].x);
+    picture.probe_y.push_back(layout.probes[p].y);
+    picture.probe_labels.push_back(fmt::format("{}{}", static_cast<char>('A' + static_cast<int>(p / 2) % 26), p % 2 + 1));
+  }
+}
+
+}  // namespace
+
+std::size_t campaign_work(const StripCampaign& s, bool with_fem) {
+  return 4 * materials_of(s).size() + cases_of(s).size() + (with_fem ? fem_outcomes(s).size() : 0);
+}
+
+CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto progress = [&](std::size_t done) {
+    if (options.on_progress) options.on_progress(done);
+  };
+  CampaignResults results;
+  results.campaign = s;
+  const auto keys = materials_of(s);
+  results.statics.resize(keys.size());
+  run_jobs(keys.size(), options.jobs, [&](std::size_t k) {
+    results.statics[k] = solve_statics(s, keys[k], options);
+    progress(4);
+  });
+
+  const auto cases = cases_of(s);
+  results.waves.resize(cases.size());
+  if (options.with_fem) results.fem = fem_outcomes(s);
+  const StripCase shown{StripPacking::random, s.seeds.front(), s.models.front(), s.stiffness_ratios.front(), Protocol::paper, StripWave::bar};
+  const std::size_t fem_jobs = options.with_fem ? 1 : 0;  // first: it is the longest job
+  run_jobs(fem_jobs + cases.size(), options.jobs, [&](std::size_t job) {
+    if (job < fem_jobs) {
+      run_all_fem(s, results, options);
+      return;
+    }
+    const StripCase& c = cases[job - fem_jobs];
+    const StaticOutcome* statics = results.find(StripMaterial{c.packing, c.seed, c.model, c.stiffness_ratio});
+    StripPicture* picture = id_of(c) == id_of(shown) ? &results.picture : nullptr;
+    results.waves[job - fem_jobs] = simulate_case(s, c, *statics, options, picture);
+    progress(1);
+  });
+  place_probes(s, results.picture);
+  results.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return results;
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,77 @@
+#pragma once
+// The default campaign: the strip of the paper, DEM and DDEM over k_t/k_n, measured in waves and compared with static
+// moduli, closed forms and the continuum. What is run, as plain data; no results.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+/// Plain DEM, or a correction of the published (lagged) scheme.
+enum class Model { dem, lagged_normal, lagged_full };
+
+enum class StripPacking { hexagonal, random };
+
+enum class Protocol {
+  long_wave,  ///< driven edge, signals averaged over cross-sections
+  paper       ///< column release, single discs, peak to peak
+};
+
+enum class StripWave { bar, shear, p };
+
+struct StripCampaign {
+  std::string title = "The strip of the paper";
+  std::vector<double> stiffness_ratios = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+  std::vector<Model> models = {Model::dem, Model::lagged_normal, Model::lagged_full};
+  std::vector<std::int64_t> seeds = {1, 2, 3, 4};
+
+  double length = 16.5e-3, width = 2e-3;  ///< m
+  std::int64_t discs = 682;               ///< of a random strip
+  std::int64_t columns = 68, rows = 10;   ///< of the hexagonal one, close-packed rows along x
+  double coordination = 5.8;              ///< of a random strip
+  double density = 2000.0;                ///< of a disc, kg/m3
+  double normal_stiffness = 1e10;         ///< N/m
+  double particle_modulus = 4e10;         ///< E_p, Pa
+  double particle_poisson_ratio = 0.3;    ///< nu_p
+  double step_fraction = 0.2;             ///< of the critical time step
+  double pulse_length = 8e-3;             ///< of the driven pulse in the strip, m (support)
+  std::int64_t fem_degree = 4;
+  std::array<std::int64_t, 2> fem_elements = {66, 8};
+};
+
+/// One simulation of the campaign.
+struct StripCase {
+  StripPacking packing = StripPacking::hexagonal;
+  std::int64_t seed = 0;  ///< of a random packing
+  Model model = Model::dem;
+  double stiffness_ratio = 0.0;
+  Protocol protocol = Protocol::long_wave;
+  StripWave wave = StripWave::shear;
+};
+
+std::string name(Model model);       ///< "DEM", "DDEM N (lagged)", ...
+std::string name(StripWave wave);    ///< "bar", "shear", "P"
+std::string material_slug(Model model, double stiffness_ratio);  ///< "lagged-full/kt0.30": the end of a verdict's name
+std::string id_of(const StripCase& c);  ///< "long-wave/random-1/lagged-full/kt0.30/shear"
+
+/// All simulations of the campaign, in a fixed order.
+std::vector<StripCase> cases_of(const StripCampaign& campaign);
+
+/// The scene file of a case. `speed` (m/s) turns the pulse's length into the drive's duration.
+std::string scene_text(const StripCampaign& campaign, const StripCase& c, double speed);
+/// The scene of its assembly without load, for static moduli; `cell`: periodic in x and y.
+std::string assembly_text(const StripCampaign& campaign, const StripCase& c, bool cell);
+
+/// Parses a text made by the two functions above. Throws std::logic_error if it is not a valid scene.
+Scene scene_of(const std::string& text, const std::string& name);
+
+/// Reads a campaign file: a TOML table [strip] whose keys are the members above; what is absent keeps its default.
+/// Throws InputError listing every problem with file and line.
+StripCampaign read_strip_campaign(const std::filesystem::path& path);
+
+}  // namespace ddem::harness

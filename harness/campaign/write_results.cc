@@ -1,0 +1,142 @@
+#include "harness/campaign/write_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/campaign/report_content.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/errors.h"
+#include "harness/io/hdf5.h"
+#include "harness/io/json.h"
+#include "harness/provenance/provenance.h"
+#include "reports/junit.h"
+
+namespace ddem::harness {
+namespace {
+
+constexpr std::size_t kStoredSamples = 600;  // of a signal; a wave run has some thousands
+
+Json provenance_json() {
+  Json j = Json::object();
+  for (const auto& [key, value] : provenance()) j[key] = value;
+  return j;
+}
+
+Json criterion_json(const reports::Criterion& c) {
+  Json j{{"metric", c.metric}, {"actual", number_or_status(c.actual, "not measured")}};
+  // A criterion without a target or bound has no such key.
+  if (std::isfinite(c.target)) j["target"] = c.target;
+  if (std::isfinite(c.lower)) j["lower"] = c.lower;
+  if (std::isfinite(c.upper)) j["upper"] = c.upper;
+  j["unit"] = c.unit;
+  j["derivation"] = c.derivation;
+  j["state"] = reports::to_string(c.state);
+  return j;
+}
+
+Json summary_json(const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
+  Json j{{"schema_version", 1}, {"title", r.campaign.title}, {"provenance", provenance_json()}, {"wall_seconds", r.wall_seconds}, {"cases", Json::array()}};
+  for (const reports::Verdict& v : verdicts) {
+    Json c{{"id", v.case_id}, {"title", v.title}, {"state", reports::to_string(v.state)}, {"reason", v.reason}, {"reproduce", v.reproduce}, {"criteria", Json::array()}};
+    for (const reports::Criterion& criterion : v.criteria) c["criteria"].push_back(criterion_json(criterion));
+    j["cases"].push_back(c);
+  }
+  return j;
+}
+
+void set_finite(Hdf5Group& g, const std::string& name, std::optional<double> value) {
+  if (value && std::isfinite(*value)) g.set_attribute(name, *value);
+}
+
+void write_recording(Hdf5Group& parent, const Recording& recording) {
+  if (recording.signals.empty()) return;
+  Hdf5Group g = parent.create_group("signals");
+  const std::size_t samples = recording.signals.front().values.size();
+  const std::size_t stride = std::max<std::size_t>(1, samples / kStoredSamples);
+  std::vector<double> time;
+  for (std::size_t n = 0; n < samples; n += stride) time.push_back(static_cast<double>(n) * recording.sample_interval);
+  g.write("time", time).set_attribute("unit", "s");
+  for (const PickedSignal& s : recording.signals) {
+    std::vector<double> values;
+    for (std::size_t n = 0; n < samples; n += stride) values.push_back(s.values[n]);
+    Hdf5Dataset d = g.write(s.probe, values);
+    d.set_attribute("unit", "m");
+    d.set_attribute("distance_from_source", s.x);
+    if (s.pick_time) d.set_attribute("pick_time", *s.pick_time);
+    if (s.pick_amplitude) d.set_attribute("pick_amplitude", *s.pick_amplitude);
+    if (!s.pick_failure.empty()) d.set_attribute("pick_failure", s.pick_failure);
+  }
+}
+
+/// Slashes in an identity would make nested groups.
+std::string group_name(std::string id) {
+  std::replace(id.begin(), id.end(), '/', ':');
+  return id;
+}
+
+void write_wave(Hdf5Group& parent, const WaveOutcome& w) {
+  Hdf5Group g = parent.create_group(group_name(id_of(w.c)));
+  g.set_attribute("scene", w.scene);
+  g.set_attribute("status", w.failure.empty() ? std::string("ok") : w.failure);
+  set_finite(g, "wave_speed", w.speed);
+  set_finite(g, "wave_speed_stddev", w.speed_stddev);
+  set_finite(g, "static_speed", w.static_speed);
+  set_finite(g, "kinematic_speed", w.kinematic_speed);
+  set_finite(g, "time_step", w.time_step);
+  set_finite(g, "critical_time_step", w.critical_time_step);
+  set_finite(g, "energy_drift", w.energy_drift);
+  g.set_attribute("steps", static_cast<std::int64_t>(w.steps));
+  write_recording(g, w.recording);
+}
+
+void write_fem(Hdf5Group& parent, const FemOutcome& f) {
+  const StripCase c{f.key.packing, f.key.seed, f.key.model, f.key.stiffness_ratio, Protocol::long_wave, f.wave};
+  Hdf5Group g = parent.create_group(group_name(id_of(c)) + (f.uniaxial ? ":uniaxial" : ""));
+  g.set_attribute("status", f.failure.empty() ? std::string("ok") : f.failure);
+  set_finite(g, "wave_speed", f.speed);
+  set_finite(g, "analytical_speed", f.analytical_speed);
+  g.set_attribute("dofs", static_cast<std::int64_t>(f.dofs));
+  g.set_attribute("steps", static_cast<std::int64_t>(f.steps));
+  set_finite(g, "solve_seconds", f.solve_seconds);
+  write_recording(g, f.recording);
+}
+
+void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
+  AtomicFile atomic(target);
+  Hdf5File file = Hdf5File::create(atomic.temporary_path());
+  {
+    Hdf5Group root = file.root();
+    root.set_attribute("title", r.campaign.title);
+    for (const auto& [key, value] : provenance()) root.set_attribute(key, value);
+    Hdf5Group waves = root.create_group("waves");
+    for (const WaveOutcome& w : r.waves) write_wave(waves, w);
+    Hdf5Group fem = root.create_group("finite_elements");
+    for (const FemOutcome& f : r.fem) write_fem(fem, f);
+    Hdf5Group strip = root.create_group("strip");
+    strip.write("x", r.picture.packing.x).set_attribute("unit", "m");
+    strip.write("y", r.picture.packing.y).set_attribute("unit", "m");
+    strip.write("radius", r.picture.packing.radius).set_attribute("unit", "m");
+    strip.write("displacement", r.picture.displacement).set_attribute("unit", "m");
+  }
+  file.close();
+  atomic.commit();
+}
+
+}  // namespace
+
+void prepare_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw MachineError(folder.string() + ": cannot create the folder: " + error.message());
+}
+
+void write_results(const std::filesystem::path& folder, const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
+  write_hdf5(folder / "results.h5", r);
+  write_json(folder / "summary.json", summary_json(r, verdicts));
+  write_file(folder / "junit.xml", reports::render_junit("ddem validate", verdicts));
+  write_file(folder / "report.html", reports::render_html(report_of(r, verdicts)));
+}
+
+}  // namespace ddem::harness

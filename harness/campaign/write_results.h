@@ -1,0 +1,19 @@
+#pragma once
+// The files of a campaign: results.h5, summary.json, junit.xml, report.html, each whole or not at all.
+
+#include <filesystem>
+#include <vector>
+
+#include "harness/campaign/results.h"
+#include "reports/verdict.h"
+
+namespace ddem::harness {
+
+/// Makes the folder, so that a campaign that cannot be written is not run. Throws MachineError.
+void prepare_folder(const std::filesystem::path& folder);
+
+/// Writes all four into `folder`. Throws MachineError.
+void write_results(const std::filesystem::path& folder, const CampaignResults& results,
+                   const std::vector<reports::Verdict>& verdicts);
+
+}  // namespace ddem::harness

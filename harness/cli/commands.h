@@ -1,0 +1,20 @@
+#pragma once
+// The commands of the program: each sets up its options and returns the exit code.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace ddem::harness {
+
+/// What a parsed command line asks for; set by the command's callback.
+using Action = std::function<int()>;
+
+void add_run_command(CLI::App& app, Action& action);
+void add_fem_command(CLI::App& app, Action& action);
+void add_moduli_command(CLI::App& app, Action& action);
+void add_pack_command(CLI::App& app, Action& action);
+void add_validate_command(CLI::App& app, Action& action);
+/// Commands that users may know of, but which are not built yet: they say so and exit with 2.
+void add_commands_to_come(CLI::App& app, Action& action);
+
+}  // namespace ddem::harness

@@ -1,0 +1,23 @@
+// Commands of the interface that are still to be built.
+#include <memory>
+
+#include "harness/cli/commands.h"
+#include "harness/io/errors.h"
+
+namespace ddem::harness {
+
+void add_commands_to_come(CLI::App& app, Action& action) {
+  for (const auto& [name, what] : {std::pair{"stability", "Sharp critical time step and stability limits of a scene"},
+                                   std::pair{"calibrate", "Contact parameters for target moduli"},
+                                   std::pair{"bench", "Run time against error"},
+                                   std::pair{"report", "Render the report of a finished campaign again"},
+                                   std::pair{"compare", "Compare a campaign with a baseline"}}) {
+    CLI::App* command = app.add_subcommand(name, std::string(what) + " (not built yet)");
+    command->allow_extras();
+    command->callback([name = std::string(name), &action] {
+      action = [name]() -> int { throw InputError("ddem " + name + ": not built yet"); };
+    });
+  }
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,77 @@
+// ddem fem SCENE.toml
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "harness/cli/commands.h"
+#include "harness/cli/output.h"
+#include "harness/cli/scene_argument.h"
+#include "harness/io/errors.h"
+#include "harness/model/load.h"
+#include "harness/run/run_json.h"
+
+namespace ddem::harness {
+namespace {
+
+struct Options {
+  std::string scene, hdf5, csv;
+  bool json = false;
+};
+
+void print_summary(const FemPlan& plan, const FemResult& r, const std::optional<WaveMeasurement>& m) {
+  fmt::print("degree {} on {} x {} elements, {} degrees of freedom; {} steps of {:.4g} s in {:.3g} s\n", r.degree, r.elements[0],
+             r.elements[1], r.dofs, r.steps, r.time_step, r.solve_seconds);
+  fmt::print("E = {:.6g} Pa, nu = {:.6g}, density {:.6g} kg/m3; analytical velocity {:.6g} m/s\n", plan.fem.material.young_modulus,
+             plan.fem.material.poisson_ratio, plan.fem.material.density, plan.context.speed);
+  if (!m) return;
+  if (m->speed.speed.ok()) {
+    fmt::print("wave speed {:.6g} m/s over {} pairs\n", m->speed.speed.value().mean, m->speed.good_pairs);
+  } else {
+    fmt::print("no wave speed: {}\n", m->speed.speed.error().reason);
+  }
+}
+
+int run(const Options& o) {
+  check_output(o.hdf5);
+  check_output(o.csv);
+  const Scene scene = load_scene(o.scene, Purpose::continuum);
+  std::optional<SceneModuli> moduli;
+  if (!continuum_stands_alone(scene)) moduli = scene_moduli(scene);
+  const FemPlan plan = plan_fem(scene, moduli);
+  const FemResult result = run_fem(std::span(&plan.fem, 1)).front();
+  if (result.status != "ok") throw SolverError(o.scene + ": ddem-fem: " + result.status);
+
+  const Wave wave = wave_of(scene).value();
+  std::optional<WaveMeasurement> measurement;
+  if (!plan.layout.pairs.empty()) {
+    measurement = measure_wave(receiver_signals(plan, result, wave), result.sample_interval, plan.layout, plan.context);
+  }
+  SignalTable table;
+  table.time = result.time;
+  const auto& ux = plan.sections ? result.section_ux : result.point_ux;
+  const auto& uy = plan.sections ? result.section_uy : result.point_uy;
+  for (std::size_t p = 0; p < ux.size(); ++p) add_probe(table, "p" + std::to_string(p), ux[p], uy[p], nullptr);
+  write_outputs(o.hdf5, o.csv, table, scene);
+  if (o.json) {
+    fmt::print("{}", to_text(fem_json(plan, result, measurement)));
+  } else {
+    print_summary(plan, result, measurement);
+  }
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_fem_command(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("fem", "The continuum model of a scene's strip: same load, same receivers");
+  command->footer("E, nu and density come from [continuum], or else from the static moduli of the assembly.\n"
+                  "Example: ddem fem shear.toml --signals shear_fem.csv");
+  command->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", o->hdf5, "write signals, scene and provenance to this HDF5 file");
+  command->add_option("--signals", o->csv, "write the receivers' signals to this CSV file");
+  command->add_flag("--json", o->json, "print the result as JSON");
+  command->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace ddem::harness

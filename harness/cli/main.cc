@@ -1,0 +1,56 @@
+// ddem: the command line.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "harness/cli/commands.h"
+#include "harness/io/errors.h"
+#include "harness/provenance/provenance.h"
+
+namespace {
+
+using namespace ddem::harness;
+
+constexpr const char* kFooter = R"(Examples:
+  ddem validate                          the strip of the paper: DEM, DDEM, finite elements; writes ddem-report/
+  ddem run scene.toml --json             one simulation, its wave speed as JSON
+  ddem moduli scene.toml                 static moduli and wave speeds of its assembly
+  ddem fem scene.toml --signals s.csv    the continuum model of the same strip
+
+Exit codes: 0 done, within tolerance; 1 a verdict failed; 2 wrong use or input;
+            3 a solver failed (unstable, no convergence); 4 the machine failed (disk, missing tool).)";
+
+int run(int argc, char** argv) {
+  CLI::App app{"Deformable discrete elements (DDEM) against continuum references: simulation, moduli, validation."};
+  app.name("ddem");
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  app.set_version_flag("--version", version_text());
+  Action action;
+  add_validate_command(app, action);
+  add_run_command(app, action);
+  add_fem_command(app, action);
+  add_moduli_command(app, action);
+  add_pack_command(app, action);
+  add_commands_to_come(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    return code == 0 ? 0 : static_cast<int>(ExitCode::wrong_input);
+  }
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "ddem: {}\n", e.what());
+    return static_cast<int>(exit_code_of(e));
+  }
+}

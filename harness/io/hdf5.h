@@ -1,0 +1,149 @@
+#pragma once
+// The part of HDF5 that results need, as values that close themselves. Serial HDF5, one thread at a time.
+//
+//   AtomicFile target("results.h5");
+//   Hdf5File file = Hdf5File::create(target.temporary_path());
+//   Hdf5Group signals = file.root().create_group("signals");
+//   signals.write("disc12_ux", values).set_attribute("unit", "m");
+//   file.close();
+//   target.commit();
+//
+// Writing fails as MachineError, reading as InputError, both with file, path inside it, and HDF5's reason.
+// HDF5's own messages to standard error are off.
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#ifdef H5_HAVE_PARALLEL
+#error "the serial flavour of HDF5 is needed here: see CMakeLists.txt"
+#endif
+
+namespace ddem::harness {
+
+/// Owns an HDF5 identifier.
+class Hdf5Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+
+  Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  ~Hdf5Handle() { reset(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+
+  hid_t get() const { return id_; }
+  /// False where closing failed.
+  bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// What has attributes: a group or a dataset.
+class Hdf5Node {
+ public:
+  /// Sets or replaces. A double must be finite, and text free of zero bytes: std::invalid_argument otherwise.
+  void set_attribute(const std::string& name, double value);
+  void set_attribute(const std::string& name, std::int64_t value);
+  void set_attribute(const std::string& name, int value) { set_attribute(name, std::int64_t{value}); }
+  void set_attribute(const std::string& name, std::string_view text);
+  void set_attribute(const std::string& name, const char* text) {
+    set_attribute(name, std::string_view(text));
+  }
+
+  bool has_attribute(const std::string& name) const;
+  double double_attribute(const std::string& name) const;
+  std::int64_t int_attribute(const std::string& name) const;
+  std::string string_attribute(const std::string& name) const;
+
+  /// "FILE:/path/inside", for messages.
+  const std::string& place() const { return place_; }
+
+ protected:
+  Hdf5Node(Hdf5Handle handle, std::string place) : handle_(std::move(handle)), place_(std::move(place)) {}
+
+  Hdf5Handle handle_;
+  std::string place_;
+
+ private:
+  void write_attribute(const std::string& name, hid_t stored, hid_t in_memory, const void* value);
+  void read_attribute(const std::string& name, hid_t in_memory, H5T_class_t expected, void* value) const;
+};
+
+class Hdf5Dataset : public Hdf5Node {
+ private:
+  friend class Hdf5Group;
+  using Hdf5Node::Hdf5Node;
+};
+
+/// Values in row-major order: the last index runs fastest.
+template <class T>
+struct Hdf5Array {
+  std::vector<std::size_t> shape;
+  std::vector<T> values;
+};
+
+class Hdf5Group : public Hdf5Node {
+ public:
+  Hdf5Group create_group(const std::string& name);
+  Hdf5Group group(const std::string& name) const;
+  Hdf5Dataset dataset(const std::string& name) const;
+  bool contains(const std::string& name) const;
+  /// Of the groups and datasets inside, in the order of their names.
+  std::vector<std::string> names() const;
+
+  /// One to three dimensions; `shape` left out: one. Above 64 kB in chunks, shuffled and deflated where the
+  /// library can. Values that are not finite are stored with an attribute `status` that says so and where the
+  /// first one is.
+  Hdf5Dataset write(const std::string& name, std::span<const double> values,
+                    std::vector<std::size_t> shape = {});
+  Hdf5Dataset write(const std::string& name, std::span<const int> values,
+                    std::vector<std::size_t> shape = {});
+  /// One-dimensional.
+  Hdf5Dataset write(const std::string& name, const std::vector<std::string>& texts);
+
+  Hdf5Array<double> read_doubles(const std::string& name) const;
+  Hdf5Array<int> read_ints(const std::string& name) const;
+  std::vector<std::string> read_strings(const std::string& name) const;
+
+ private:
+  friend class Hdf5File;
+  using Hdf5Node::Hdf5Node;
+
+  std::string place_of(const std::string& name) const;
+  Hdf5Dataset write_array(const std::string& name, std::vector<std::size_t> shape, std::size_t count,
+                          hid_t type, const void* values);
+};
+
+class Hdf5File {
+ public:
+  /// Replaces a file that is there: give it AtomicFile::temporary_path().
+  static Hdf5File create(const std::filesystem::path& path);
+  static Hdf5File open(const std::filesystem::path& path);
+
+  Hdf5Group root() const;
+  /// Writes what HDF5 still holds back; MachineError where the disk refuses. Groups and datasets of the file
+  /// must not be used any more. The destructor closes, too, but cannot say so.
+  void close();
+
+ private:
+  Hdf5File(Hdf5Handle handle, std::string path) : handle_(std::move(handle)), path_(std::move(path)) {}
+
+  Hdf5Handle handle_;
+  std::string path_;
+};
+
+}  // namespace ddem::harness

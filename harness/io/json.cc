@@ -1,0 +1,64 @@
+#include "harness/io/json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "harness/io/atomic_file.h"
+#include "harness/io/errors.h"
+
+namespace ddem::harness {
+namespace {
+
+constexpr int max_depth = 200;
+
+void require_finite(const Json& value, const std::string& place) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+    throw std::invalid_argument(
+        fmt::format("a number that is not finite at {} of a JSON document", place.empty() ? "/" : place));
+  if (value.is_object()) {
+    for (const auto& [key, element] : value.items()) require_finite(element, place + "/" + key);
+  } else if (value.is_array()) {
+    for (std::size_t n = 0; n < value.size(); ++n) require_finite(value[n], fmt::format("{}/{}", place, n));
+  }
+}
+
+}  // namespace
+
+Json number_or_status(double value, std::string_view reason) {
+  if (std::isfinite(value)) return value;
+  return Json::object({{"status", fmt::format("not a number: {}", reason)}});
+}
+
+Json numbers_or_status(const std::vector<double>& values, std::string_view reason) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number_or_status(value, reason));
+  return array;
+}
+
+std::string to_text(const Json& document) {
+  require_finite(document, "");
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void write_json(const std::filesystem::path& target, const Json& document) {
+  write_file(target, to_text(document));
+}
+
+Json read_json(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  // The parser itself does not recurse, but everything that walks its result does.
+  const auto limit_depth = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > max_depth)
+      throw InputError(fmt::format("{}: JSON nested deeper than {} levels", path.string(), max_depth));
+    return true;
+  };
+  try {
+    return Json::parse(text, limit_depth);
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,31 @@
+#pragma once
+// JSON in which a number that is not finite never hides: nlohmann's writer would turn it into null.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ddem::harness {
+
+/// Objects keep the order in which their keys were set.
+using Json = nlohmann::ordered_json;
+
+/// The number, or {"status": "not a number: REASON"} where it is not finite.
+Json number_or_status(double value, std::string_view reason);
+
+/// Every element by number_or_status().
+Json numbers_or_status(const std::vector<double>& values, std::string_view reason);
+
+/// Text of a document, indented by two blanks, with a final line break. Throws std::invalid_argument, naming
+/// the place, where a number in it is not finite. Bytes that are not UTF-8 become U+FFFD.
+std::string to_text(const Json& document);
+
+/// to_text() to a file, whole or not at all; errors as in write_file().
+void write_json(const std::filesystem::path& target, const Json& document);
+
+/// Throws InputError with the path and place of what is wrong, nesting deeper than 200 levels included.
+Json read_json(const std::filesystem::path& path);
+
+}  // namespace ddem::harness

@@ -1,0 +1,31 @@
+#pragma once
+// Running another program, without a shell.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ddem::harness {
+
+struct SubprocessResult {
+  int exit_code = 0;                            ///< of a program that ended by itself
+  int signal = 0;                               ///< that ended it, or 0
+  std::string standard_output, standard_error;  ///< the last megabyte of each
+
+  bool succeeded() const { return exit_code == 0 && signal == 0; }
+  /// "exit code 3", "killed by signal 9 (Killed)".
+  std::string status() const;
+};
+
+/// Called with each line of the program's standard error as it comes, without its line break.
+using LineCallback = std::function<void(std::string_view line)>;
+
+/// Runs a program (a path, or a name that is looked for in PATH) with arguments, standard input from
+/// /dev/null, and waits for it. A program that cannot be started is a MachineError; one that fails is a
+/// result. Where the callback throws, the program is killed and waited for, and the exception goes on. Ends
+/// with the program, even where a process that it left behind still holds its output.
+SubprocessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                             const LineCallback& on_error_line = {});
+
+}  // namespace ddem::harness

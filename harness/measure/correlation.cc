@@ -1,0 +1,79 @@
+#include "harness/measure/correlation.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <stdexcept>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+#include "harness/measure/picker.h"
+
+namespace ddem::harness {
+namespace {
+
+/// sum_n a(n) b(n + k) for k = -(a.size() - 1) .. b.size() - 1, by zero-padded Fourier transforms.
+std::vector<double> correlate(std::span<const double> a, std::span<const double> b) {
+  const std::size_t lags = a.size() + b.size() - 1;
+  const std::size_t padded = std::bit_ceil(lags);
+  std::vector<double> a_padded(padded, 0.0), b_padded(padded, 0.0);
+  std::copy(a.begin(), a.end(), a_padded.begin());
+  std::copy(b.begin(), b.end(), b_padded.begin());
+  Eigen::FFT<double> fft;
+  std::vector<std::complex<double>> a_hat, b_hat;
+  fft.fwd(a_hat, a_padded);
+  fft.fwd(b_hat, b_padded);
+  for (std::size_t m = 0; m < a_hat.size(); ++m) b_hat[m] *= std::conj(a_hat[m]);
+  std::vector<double> circular;
+  fft.inv(circular, b_hat);
+  // Negative lags stand at the end of the circular result.
+  std::rotate(circular.begin(), circular.end() - static_cast<std::ptrdiff_t>(a.size() - 1), circular.end());
+  circular.resize(lags);
+  return circular;
+}
+
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0.0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+/// Scaled to unit energy; scaled by the largest value first, since the squares of small displacements
+/// underflow.
+std::vector<double> normalised(std::span<const double> values) {
+  const double largest = largest_magnitude(values);
+  std::vector<double> scaled(values.begin(), values.end());
+  for (double& v : scaled) v /= largest;
+  const double norm = std::sqrt(std::inner_product(scaled.begin(), scaled.end(), scaled.begin(), 0.0));
+  for (double& v : scaled) v /= norm;
+  return scaled;
+}
+
+}  // namespace
+
+Outcome<double> correlation_delay(const Signal& from, const Signal& to, const Window& delays,
+                                  double min_coefficient) {
+  require_valid(from, delays);
+  require_valid(to, delays);
+  if (std::abs(from.dt - to.dt) > 1e-12 * from.dt)
+    throw std::invalid_argument("cross-correlation needs two signals of the same sampling step");
+  if (!all_finite(from.values) || !all_finite(to.values))
+    return FailedMeasurement{Failure::non_finite, "a signal is not finite"};
+  if (from.size() < 3 || to.size() < 3)
+    return FailedMeasurement{Failure::empty_window, "fewer than three samples to correlate"};
+  if (largest_magnitude(from.values) == 0.0 || largest_magnitude(to.values) == 0.0)
+    return FailedMeasurement{Failure::flat, "a signal is zero throughout"};
+
+  const std::vector<double> coefficient = correlate(normalised(from.values), normalised(to.values));
+  const double first_delay = to.t0 - from.t0 - static_cast<double>(from.size() - 1) * from.dt;
+  PickOptions options;
+  options.expected_amplitude = 1.0;
+  options.detection_fraction = min_coefficient;
+  const Pick pick = pick_peak({coefficient, from.dt, first_delay}, delays, options);
+  if (!pick.ok()) return FailedMeasurement{pick.error().failure, "cross-correlation: " + pick.error().reason};
+  return pick.value().time;
+}
+
+}  // namespace ddem::harness

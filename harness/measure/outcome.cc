@@ -1,0 +1,29 @@
+#include "harness/measure/outcome.h"
+
+namespace ddem::harness {
+
+std::string_view name(Failure failure) {
+  switch (failure) {
+    case Failure::non_finite:
+      return "non_finite";
+    case Failure::empty_window:
+      return "empty_window";
+    case Failure::no_reference:
+      return "no_reference";
+    case Failure::flat:
+      return "flat";
+    case Failure::at_edge:
+      return "at_edge";
+    case Failure::below_noise:
+      return "below_noise";
+    case Failure::ambiguous:
+      return "ambiguous";
+    case Failure::not_causal:
+      return "not_causal";
+    case Failure::too_few_picks:
+      return "too_few_picks";
+  }
+  return "unknown";
+}
+
+}  // namespace ddem::harness

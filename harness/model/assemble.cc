@@ -1,0 +1,184 @@
+#include "harness/model/assemble.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <cmath>
+#include <string>
+
+#include "dem/assembly/contacts.h"
+#include "dem/assembly/packing_check.h"
+#include "harness/io/errors.h"
+#include "harness/scene/csv.h"
+#include "meshes/packings/hexagonal.h"
+#include "meshes/packings/random.h"
+
+namespace ddem::harness {
+namespace {
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
+
+[[noreturn]] void reject(const Scene& scene, const std::string& table, const std::string& message) {
+  throw InputError(scene.path.string() + ": [" + table + "]: " + message);
+}
+
+/// Library errors know no scene: this adds it.
+template <class F>
+auto naming_scene(const Scene& scene, const std::string& table, F&& f) {
+  try {
+    return f();
+  } catch (const std::invalid_argument& e) {
+    reject(scene, table, e.what());
+  }
+}
+
+Packing random_packing(const RandomPacking& p) {
+  return packings::random_jammed({.length = p.length,
+                                  .width = p.width,
+                                  .discs = static_cast<int>(p.discs),
+                                  .seed = static_cast<std::uint64_t>(p.seed),
+                                  .radius_ratio = p.radius_ratio});
+}
+
+Packing hexagonal_packing(const HexagonalPacking& p, Periodicity periodic) {
+  packings::HexagonalSpec spec;
+  spec.close_packed = p.close_packed_along == Axis::x ? packings::CloseRows::along_x : packings::CloseRows::along_y;
+  spec.periodic_x = periodic.x;
+  spec.periodic_y = periodic.y;
+  std::visit(Overload{[&](const HexagonalLattice& l) {
+                        spec.columns = static_cast<int>(l.columns);
+                        spec.rows = static_cast<int>(l.rows);
+                        spec.radius = l.radius;
+                      },
+                      [&](const HexagonalRectangle& r) {
+                        spec.length = r.length;
+                        spec.width = r.width;
+                        spec.discs = static_cast<int>(r.discs);
+                      }},
+             p.size);
+  return packings::hexagonal(spec);
+}
+
+Packing file_packing(const Scene& scene, const FilePacking& p) {
+  const auto table = read_disc_table(p.discs);
+  if (!table) {
+    std::vector<std::string> lines;
+    for (const Violation& v : table.violations) lines.push_back(to_string(v));
+    throw InputError(lines);
+  }
+  Packing packing{table->x, table->y, table->radius, {}, 0.0, 0.0};
+  if (packing.size() < 2) reject(scene, "assembly", p.discs.string() + " holds fewer than two discs");
+  const auto extent = [&](const std::vector<double>& c) {
+    double lo = c[0], hi = c[0];
+    for (std::size_t d = 0; d < c.size(); ++d) {
+      lo = std::min(lo, c[d] - packing.radius[d]);
+      hi = std::max(hi, c[d] + packing.radius[d]);
+    }
+    return hi - lo;
+  };
+  packing.length = p.length.value_or(extent(packing.x));
+  packing.width = p.width.value_or(extent(packing.y));
+  packing.period = {scene.assembly.periodic.x ? packing.length : 0.0, scene.assembly.periodic.y ? packing.width : 0.0};
+  const auto problems = packing_problems(packing);
+  if (!problems.empty()) {
+    std::vector<std::string> lines;
+    for (const std::string& problem : problems) lines.push_back(p.discs.string() + ": " + problem);
+    throw InputError(lines);
+  }
+  return packing;
+}
+
+Packing packing_with(const Scene& scene, Periodicity periodic) {
+  return naming_scene(scene, "assembly", [&] {
+    return std::visit(Overload{[](const RandomPacking& p) { return random_packing(p); },
+                               [&](const HexagonalPacking& p) { return hexagonal_packing(p, periodic); },
+                               [&](const FilePacking& p) { return file_packing(scene, p); }},
+                      scene.assembly.packing);
+  });
+}
+
+Bonds bonds_for(const Scene& scene, const Packing& packing) {
+  return std::visit(
+      Overload{[&](const BondGap& g) { return bonds_within_gap(packing, g.mean_radii * mean_radius(packing)); },
+               [&](const BondCoordination& c) {
+                 return bonds_within_gap(packing, gap_for_coordination(packing, c.bonds_per_disc));
+               },
+               [&](const BondFile& f) {
+                 const auto table = read_bond_table(f.path);
+                 if (!table) {
+                   std::vector<std::string> lines;
+                   for (const Violation& v : table.violations) lines.push_back(to_string(v));
+                   throw InputError(lines);
+                 }
+                 return bonds_between(packing, *table);
+               }},
+      scene.assembly.bonding);
+}
+
+ddem::Assembly assembly_with(const Scene& scene, Periodicity periodic) {
+  Packing packing = packing_with(scene, periodic);
+  return naming_scene(scene, "assembly", [&] {
+    const Bonds bonds = cut_at_edges(packing, bonds_for(scene, packing), !periodic.x, !periodic.y);
+    if (!periodic.x) packing.period.x = 0.0;
+    if (!periodic.y) packing.period.y = 0.0;
+    const bool by_chance = std::holds_alternative<RandomPacking>(scene.assembly.packing);
+    return make_assembly(packing, bonds, scene.assembly.thickness, scene.material.value().density,
+                         by_chance ? RattlerRule::peel : RattlerRule::none);
+  });
+}
+
+}  // namespace
+
+Packing build_packing(const Scene& scene) { return packing_with(scene, scene.assembly.periodic); }
+
+ddem::Assembly build_assembly(const Scene& scene) { return assembly_with(scene, scene.assembly.periodic); }
+
+std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene) {
+  if (scene.assembly.periodic.y) return build_assembly(scene);
+  if (std::holds_alternative<FilePacking>(scene.assembly.packing)) return std::nullopt;
+  Scene closed = scene;
+  closed.assembly.periodic.y = true;
+  // A lattice closes on an even number of rows only: one more row is the same material.
+  if (auto* hexagonal = std::get_if<HexagonalPacking>(&closed.assembly.packing)) {
+    if (auto* lattice = std::get_if<HexagonalLattice>(&hexagonal->size)) {
+      if (hexagonal->close_packed_along == Axis::x) lattice->rows += lattice->rows % 2;
+    } else {
+      const Packing free = build_packing(scene);
+      const double r = free.radius.front();
+      const auto rows = std::lround(free.width / (hexagonal->close_packed_along == Axis::x ? std::sqrt(3.0) * r : 2.0 * r));
+      const auto columns = static_cast<long>(free.size()) / rows;
+      hexagonal->size = HexagonalLattice{columns, hexagonal->close_packed_along == Axis::x ? rows + rows % 2 : rows, r};
+    }
+  }
+  return build_assembly(closed);
+}
+
+ContactParameters contact_parameters(const Scene& scene) {
+  const Contact& c = scene.contact.value();
+  return {std::get<NormalStiffness>(c.stiffness).k_n, c.stiffness_ratio,
+          c.kinematics == Kinematics::linear ? ddem::Kinematics::linear : ddem::Kinematics::nonlinear};
+}
+
+DeformationParameters deformation_parameters(const Scene& scene) {
+  if (!scene.deformation) return {};
+  const Deformation& d = *scene.deformation;
+  DeformationParameters p;
+  p.scheme = Scheme::lagged;
+  p.correction = d.correction == Correction::normal ? ddem::Correction::normal
+                 : d.correction == Correction::full ? ddem::Correction::full
+                                                    : ddem::Correction::normal_only_stress;
+  p.young_modulus = d.young_modulus;
+  p.poisson_ratio = d.poisson_ratio;
+  p.plane = d.plane == Plane::stress ? ddem::Plane::stress : ddem::Plane::strain;
+  return p;
+}
+
+double edge_band(const Scene& scene, const ddem::Assembly& assembly) {
+  return scene.assembly.edge_band * mean_radius(assembly.packing);
+}
+
+}  // namespace ddem::harness

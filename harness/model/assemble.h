@@ -1,0 +1,30 @@
+#pragma once
+// From a scene to the discs and bonds that it describes.
+
+#include <optional>
+
+#include "dem/assembly/assembly.h"
+#include "dem/core/material.h"
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+/// The packing of the scene; a random one is periodic in x and y whatever the scene's edges are.
+/// Throws InputError naming the scene's key.
+Packing build_packing(const Scene& scene);
+
+/// Packing, bonds, masses. The bond gap or coordination is that of the whole packing; then the bonds that cross an
+/// edge which is not periodic are cut. Throws InputError.
+ddem::Assembly build_assembly(const Scene& scene);
+
+/// The same material without free edges above and below: the random packing or a lattice closed in y. Empty for a
+/// packing from a file that is not periodic in y. Its moduli are what a P or shear wave between periodic edges sees.
+std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene);
+
+ContactParameters contact_parameters(const Scene& scene);
+DeformationParameters deformation_parameters(const Scene& scene);
+
+/// edge_band in metres.
+double edge_band(const Scene& scene, const ddem::Assembly& assembly);
+
+}  // namespace ddem::harness

@@ -1,0 +1,29 @@
+#pragma once
+// From a scene's edges, initial state and drive to held discs, initial displacements and driven discs.
+
+#include <optional>
+
+#include "dem/simulation/simulation.h"
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+/// Held edges: fixed_x holds u_x, fixed holds u_x, u_y and the rotation.
+HeldDofs held_dofs(const Scene& scene, const ddem::Assembly& assembly);
+
+/// Initial displacements and velocities; distances s of a pulse count from the outermost centre on the left.
+/// Throws InputError if a state file has not one row a disc.
+ddem::InitialState initial_state(const Scene& scene, const ddem::Assembly& assembly);
+
+std::optional<EdgeDrive> edge_drive(const Scene& scene, const ddem::Assembly& assembly);
+
+/// Which wave the load sends; empty for a state from files.
+std::optional<Wave> wave_of(const Scene& scene);
+
+/// How long the source acts, s: the drive's duration, 0 for an initial state.
+double source_duration(const Scene& scene);
+/// Where the source's maximum is at time 0, m from the left end (the centre of a gaussian; else 0).
+double source_centre(const Scene& scene);
+double source_amplitude(const Scene& scene);
+
+}  // namespace ddem::harness

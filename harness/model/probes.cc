@@ -1,0 +1,139 @@
+#include "harness/model/probes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "harness/io/errors.h"
+
+namespace ddem::harness {
+namespace {
+
+constexpr double kFrom = 0.25;                                                   // of the length
+constexpr std::array<double, 5> kDistances = {0.40, 0.35, 0.45, 0.375, 0.425};  // of the length, one a pair, repeated
+
+struct Box {
+  double x0, x1, y0, y1;  // outermost edges of the discs
+
+  explicit Box(const Packing& p) : x0(p.x[0]), x1(p.x[0]), y0(p.y[0]), y1(p.y[0]) {
+    for (std::size_t d = 0; d < p.size(); ++d) {
+      x0 = std::min(x0, p.x[d] - p.radius[d]);
+      x1 = std::max(x1, p.x[d] + p.radius[d]);
+      y0 = std::min(y0, p.y[d] - p.radius[d]);
+      y1 = std::max(y1, p.y[d] + p.radius[d]);
+    }
+  }
+};
+
+int nearest_disc(const ddem::Assembly& a, double x, double y) {
+  int best = 0;
+  double smallest = HUGE_VAL;
+  for (std::size_t d = 0; d < a.size(); ++d) {
+    if (std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) continue;  // it does not move
+    const double distance = std::hypot(a.packing.x[d] - x, a.packing.y[d] - y);
+    if (distance < smallest) {
+      smallest = distance;
+      best = static_cast<int>(d);
+    }
+  }
+  return best;
+}
+
+Probe disc_probe(const ddem::Assembly& a, int disc) {
+  return {"disc" + std::to_string(disc), a.packing.x[disc], a.packing.y[disc], {{disc}}};
+}
+
+Probe section_probe(const ddem::Assembly& a, double x, int number) {
+  const double half_width = 2.0 * mean_radius(a.packing);
+  Probe probe{"section" + std::to_string(number), 0.0, 0.0, {}};
+  for (std::size_t d = 0; d < a.size(); ++d) {
+    if (std::abs(a.packing.x[d] - x) > half_width) continue;
+    if (std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) continue;
+    probe.receiver.discs.push_back(static_cast<int>(d));
+    probe.x += a.packing.x[d];
+    probe.y += a.packing.y[d];
+  }
+  const double n = static_cast<double>(probe.receiver.discs.size());
+  if (n == 0) throw InputError("probes: no disc near the cross-section at x = " + std::to_string(x) + " m");
+  probe.x /= n;
+  probe.y /= n;
+  return probe;
+}
+
+/// Wanted places of a pair, from the lower left corner of a strip.
+struct PairPlace {
+  double x_from, x_to, y;
+};
+
+PairPlace place_of_pair(int k, const ProbePairs& spec, double length, double width) {
+  const double pairs = static_cast<double>(spec.pairs);
+  // Sections start at different places too, so that they do not share all their discs.
+  const double shift = spec.section ? 0.02 * length * (k - 0.5 * (pairs - 1.0)) * std::min(1.0, 5.0 / pairs) : 0.0;
+  const double x_from = kFrom * length + shift;
+  return {x_from, x_from + kDistances[k % kDistances.size()] * length, width * (k + 0.5) / pairs};
+}
+
+ProbeLayout pairs_layout(const ProbePairs& spec, const ddem::Assembly& a) {
+  const Box box(a.packing);
+  ProbeLayout layout;
+  for (int k = 0; k < static_cast<int>(spec.pairs); ++k) {
+    const PairPlace place = place_of_pair(k, spec, box.x1 - box.x0, box.y1 - box.y0);
+    if (spec.section) {
+      layout.probes.push_back(section_probe(a, box.x0 + place.x_from, 2 * k));
+      layout.probes.push_back(section_probe(a, box.x0 + place.x_to, 2 * k + 1));
+    } else {
+      layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + place.x_from, box.y0 + place.y)));
+      layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + place.x_to, layout.probes.back().y)));
+    }
+    const double distance = layout.probes[2 * k + 1].x - layout.probes[2 * k].x;
+    if (!(distance > 0.0)) {
+      throw InputError("probes.pairs: the assembly is too short for pairs of probes; name discs or points instead");
+    }
+    layout.pairs.push_back({2 * k, 2 * k + 1, distance});
+  }
+  return layout;
+}
+
+}  // namespace
+
+ProbeLayout lay_probes(const Scene& scene, const ddem::Assembly& a) {
+  if (const auto* pairs = std::get_if<ProbePairs>(&scene.probes)) return pairs_layout(*pairs, a);
+  ProbeLayout layout;
+  std::vector<std::string> problems;
+  if (const auto* named = std::get_if<ProbeDiscs>(&scene.probes)) {
+    for (const std::int64_t disc : named->discs) {
+      if (disc < 0 || disc >= static_cast<std::int64_t>(a.size())) {
+        problems.push_back(scene.path.string() + ": probes.discs: " + std::to_string(disc) + " does not exist; discs are 0 to " +
+                           std::to_string(a.size() - 1));
+      } else {
+        layout.probes.push_back(disc_probe(a, static_cast<int>(disc)));
+      }
+    }
+  } else {
+    const Box box(a.packing);
+    for (const auto& [x, y] : std::get<ProbePoints>(scene.probes).points) {
+      if (x < 0.0 || x > box.x1 - box.x0 || y < 0.0 || y > box.y1 - box.y0) {
+        problems.push_back(scene.path.string() + ": probes.points: (" + std::to_string(x) + ", " + std::to_string(y) +
+                           ") m lies outside the assembly of " + std::to_string(box.x1 - box.x0) + " m x " +
+                           std::to_string(box.y1 - box.y0) + " m");
+      } else {
+        layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + x, box.y0 + y)));
+      }
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return layout;
+}
+
+ProbeLayout nominal_pairs(const ProbePairs& spec, double length, double width) {
+  ProbeLayout layout;
+  for (int k = 0; k < static_cast<int>(spec.pairs); ++k) {
+    const PairPlace place = place_of_pair(k, spec, length, width);
+    layout.probes.push_back({"p" + std::to_string(2 * k), place.x_from, place.y, {}});
+    layout.probes.push_back({"p" + std::to_string(2 * k + 1), place.x_to, place.y, {}});
+    layout.pairs.push_back({2 * k, 2 * k + 1, place.x_to - place.x_from});
+  }
+  return layout;
+}
+
+}  // namespace ddem::harness

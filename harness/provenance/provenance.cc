@@ -1,0 +1,65 @@
+#include "harness/provenance/provenance.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <Eigen/Core>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include "dem/kernel/step_data.h"
+
+namespace ddem::harness {
+namespace {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) {
+      const auto colon = line.find(": ");
+      if (colon != std::string::npos) return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::string instruction_set() {
+  switch (best_instruction_set()) {
+    case InstructionSet::baseline: return "baseline";
+    case InstructionSet::avx2: return "AVX2";
+    case InstructionSet::avx512: return "AVX-512";
+  }
+  return "unknown";
+}
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{} (serial)", major, minor, release);
+}
+
+std::string libraries() {
+  return fmt::format("Eigen {}.{}.{}, HDF5 {}, fmt {}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                     hdf5_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> provenance() {
+  return {{"version", DDEM_VERSION},
+          {"compiler", DDEM_COMPILER},
+          {"build", DDEM_BUILD},
+          {"libraries", libraries()},
+          {"processor", processor()},
+          {"cores", std::to_string(std::thread::hardware_concurrency())},
+          {"instruction set", instruction_set()},
+          {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+}
+
+std::string version_text() {
+  return fmt::format("ddem {}\n{}, {}\n{}\n", DDEM_VERSION, DDEM_COMPILER, DDEM_BUILD, libraries());
+}
+
+}  // namespace ddem::harness

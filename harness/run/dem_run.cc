@@ -1,0 +1,124 @@
+#include "harness/run/dem_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/spectra/spectra.h"
+#include "harness/io/errors.h"
+#include "harness/model/assemble.h"
+#include "harness/model/load.h"
+#include "harness/run/scene_moduli.h"
+
+namespace ddem::harness {
+namespace {
+
+constexpr long kMostSteps = 2'000'000'000;
+
+double choose_step(const Scene& scene, double critical) {
+  const Time& time = scene.time;
+  const auto* seconds = std::get_if<StepSeconds>(&time.step);
+  const double step = seconds != nullptr ? seconds->seconds : std::get<StepFraction>(time.step).of_critical * critical;
+  if (step > critical && !time.allow_above_critical) {
+    throw InputError(fmt::format("{}: time.{} = {:.6g}: the time step {:.6g} s is above the critical one, {:.6g} s; "
+                                  "lower it, or set time.allow_above_critical = true for a stability study",
+                                  scene.path.string(), seconds != nullptr ? "step" : "step_fraction",
+                                  seconds != nullptr ? step : step / critical, step, critical));
+  }
+  return step;
+}
+
+long choose_steps(const Scene& scene, const DemRun& run) {
+  double seconds = 0.0;
+  if (const auto* steps = std::get_if<EndSteps>(&scene.time.end)) return static_cast<long>(steps->steps);
+  if (const auto* end = std::get_if<EndTime>(&scene.time.end)) {
+    seconds = end->seconds;
+  } else {
+    if (!run.wave || run.layout.pairs.empty()) {
+      throw InputError(scene.path.string() + ": time.end: without pairs of probes and a pulse there is no last peak to "
+                                              "wait for; give time.end or time.steps");
+    }
+    // The kinematic estimate is up to 25 % too fast.
+    for (const Probe& p : run.layout.probes) seconds = std::max(seconds, time_of_passage(run.context, p.x, 0.45));
+  }
+  const double steps = std::ceil(seconds / run.time_step);
+  if (!(steps <= static_cast<double>(kMostSteps))) {
+    throw InputError(fmt::format("{}: time.end = {:.6g} s takes {:.3g} steps of {:.3g} s; at most {} are allowed",
+                                  scene.path.string(), seconds, steps, run.time_step, kMostSteps));
+  }
+  return static_cast<long>(steps);
+}
+
+WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave, std::optional<double> speed) {
+  WaveContext c;
+  const auto [left, right] = std::minmax_element(a.packing.x.begin(), a.packing.x.end());
+  c.left_end = *left;
+  c.length = *right - *left;
+  c.speed = speed.value_or(0.0);
+  if (!speed) c.speed = kinematic_speed(scene, a, wave);
+  c.source_centre = source_centre(scene);
+  c.source_duration = source_duration(scene);
+  c.source_amplitude = source_amplitude(scene);
+  return c;
+}
+
+/// Lagged DDEM beyond its limits runs, with a warning (theory section 3).
+void warn_of_instability(const Scene& scene, DemRun& run) {
+  const DeformationParameters d = deformation_parameters(scene);
+  if (!d.active()) return;
+  const double radius = fixed_point_radius(run.assembly, contact_parameters(scene), d);
+  if (radius >= 1.0) {
+    run.warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g}, and it "
+                                       "must be below 1; stiffen the discs (young_modulus) by at least that factor",
+                                       radius));
+  } else if (d.correction != ddem::Correction::normal || scene.contact->stiffness_ratio == 0.0) {
+    DeformationParameters symmetric = d;
+    if (scene.contact->stiffness_ratio == 0.0) symmetric.correction = ddem::Correction::normal_only_stress;
+    const double limit = flip_limit_step(run.assembly, contact_parameters(scene), symmetric, held_dofs(scene, run.assembly));
+    if (run.time_step > limit) {
+      run.warnings.push_back(fmt::format("the lagged scheme is unstable at this step: its limit is {:.4g} s, {:.3g} of the "
+                                         "critical step of DEM; lower step_fraction below that",
+                                         limit, limit / run.critical_time_step));
+    }
+  }
+}
+
+}  // namespace
+
+const std::vector<std::vector<double>>& wave_component(const Signals& s, Wave wave) {
+  return wave == Wave::longitudinal ? s.ux : s.uy;
+}
+
+DemRun run_scene(const Scene& scene, const RunOptions& options) {
+  DemRun run;
+  run.assembly = build_assembly(scene);
+  run.layout = lay_probes(scene, run.assembly);
+  run.wave = wave_of(scene);
+
+  SimulationInput in;
+  in.contact = contact_parameters(scene);
+  in.deformation = deformation_parameters(scene);
+  in.held = held_dofs(scene, run.assembly);
+  in.initial = initial_state(scene, run.assembly);
+  in.drive = edge_drive(scene, run.assembly);
+  in.sample_every = static_cast<int>(scene.time.sample_every);
+  in.threads = static_cast<int>(scene.run.threads);
+  in.on_progress = options.on_progress;
+  for (const Probe& p : run.layout.probes) in.receivers.push_back(p.receiver);
+
+  run.critical_time_step = 2.0 / largest_frequency(run.assembly, in.contact, in.held);
+  run.time_step = in.time_step = choose_step(scene, run.critical_time_step);
+  if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
+  in.steps = choose_steps(scene, run);
+  warn_of_instability(scene, run);
+
+  run.result = simulate(run.assembly, in);
+  if (!run.result.divergence && run.wave && !run.layout.pairs.empty()) {
+    run.measurement = measure_wave(wave_component(run.result.signals, *run.wave),
+                                   run.time_step * static_cast<double>(in.sample_every), run.layout, run.context);
+  }
+  return run;
+}
+
+}  // namespace ddem::harness

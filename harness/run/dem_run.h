@@ -1,0 +1,39 @@
+#pragma once
+// One DEM or DDEM simulation of a scene, from file to wave speed: what `ddem run` does and a campaign repeats.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/simulation/simulation.h"
+#include "harness/model/probes.h"
+#include "harness/run/measure_wave.h"
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+struct DemRun {
+  ddem::Assembly assembly;
+  ProbeLayout layout;
+  std::optional<Wave> wave;
+  WaveContext context;
+  double critical_time_step = 0.0, time_step = 0.0;
+  SimulationResult result;
+  std::optional<WaveMeasurement> measurement;  ///< empty where there are no pairs or the run diverged
+  std::vector<std::string> warnings;
+};
+
+struct RunOptions {
+  /// The static speed where the caller knows it (m/s): narrows the windows and the run time. Else the kinematic estimate.
+  std::optional<double> expected_speed;
+  std::function<bool(double)> on_progress;
+};
+
+/// Throws InputError (scene). A divergence is not an exception but in result.divergence.
+DemRun run_scene(const Scene& scene, const RunOptions& options = {});
+
+/// The component of the signals that carries the wave.
+const std::vector<std::vector<double>>& wave_component(const Signals& signals, Wave wave);
+
+}  // namespace ddem::harness

@@ -1,0 +1,125 @@
+#include "harness/run/fem_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/io/errors.h"
+#include "harness/model/assemble.h"
+#include "harness/model/load.h"
+
+namespace ddem::harness {
+namespace {
+
+/// The rectangle of the continuum in the packing's coordinates.
+struct Rectangle {
+  double x0 = 0.0, x1 = 0.0, y0 = 0.0, width = 0.0;
+};
+
+double mean_x(const Packing& p, const std::vector<int>& discs) {
+  double sum = 0.0;
+  for (const int d : discs) sum += p.x[d];
+  return sum / static_cast<double>(discs.size());
+}
+
+Rectangle rectangle_of(const Scene& scene, const ddem::Assembly& a) {
+  const double band = edge_band(scene, a);
+  double bottom = HUGE_VAL;
+  for (std::size_t d = 0; d < a.size(); ++d) bottom = std::min(bottom, a.packing.y[d] - a.packing.radius[d]);
+  return {mean_x(a.packing, edge_discs(a.packing, ddem::Edge::left, band)),
+          mean_x(a.packing, edge_discs(a.packing, ddem::Edge::right, band)), bottom, a.packing.width};
+}
+
+std::optional<Rectangle> nominal_rectangle(const Scene& scene) {
+  if (const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing)) return Rectangle{0.0, random->length, 0.0, random->width};
+  if (const auto* hexagonal = std::get_if<HexagonalPacking>(&scene.assembly.packing)) {
+    if (const auto* r = std::get_if<HexagonalRectangle>(&hexagonal->size)) return Rectangle{0.0, r->length, 0.0, r->width};
+  }
+  return std::nullopt;
+}
+
+/// The layout that lay_probes would give on a strip without discs, at the wanted places exactly.
+ProbeLayout nominal_layout(const Scene& scene, const Rectangle& box) {
+  if (const auto* pairs = std::get_if<ProbePairs>(&scene.probes)) return nominal_pairs(*pairs, box.x1 - box.x0, box.width);
+  ProbeLayout layout;
+  for (const auto& [x, y] : std::get<ProbePoints>(scene.probes).points) {
+    if (x < 0.0 || x > box.x1 - box.x0 || y < 0.0 || y > box.width) {
+      throw InputError(scene.path.string() + ": probes.points: a point lies outside the strip");
+    }
+    layout.probes.push_back({"p" + std::to_string(layout.probes.size()), x, y, {}});
+  }
+  return layout;
+}
+
+double mean_column_spacing(const std::optional<ddem::Assembly>& a, const Rectangle& box) {
+  // Columns of a dense packing are sqrt(3) r apart; without discs, a sixtieth of the length.
+  return a ? std::sqrt(3.0) * mean_radius(a->packing) : (box.x1 - box.x0) / 60.0;
+}
+
+double choose_end(const Scene& scene, const FemPlan& plan) {
+  if (const auto* end = std::get_if<EndTime>(&scene.time.end)) return end->seconds;
+  if (std::holds_alternative<EndSteps>(scene.time.end)) {
+    throw InputError(scene.path.string() + ": time.steps: the continuum's time step is not that of the discs; give time.end");
+  }
+  if (plan.layout.pairs.empty()) {
+    throw InputError(scene.path.string() + ": time.end: without pairs of probes there is no last peak to wait for; give time.end");
+  }
+  double seconds = 0.0;
+  for (const Probe& p : plan.layout.probes) seconds = std::max(seconds, time_of_passage(plan.context, p.x, 0.3));
+  return seconds;
+}
+
+}  // namespace
+
+bool continuum_stands_alone(const Scene& scene) {
+  return scene.continuum && scene.continuum->young_modulus && scene.continuum->poisson_ratio && scene.continuum->density &&
+         nominal_rectangle(scene) && !std::holds_alternative<ProbeDiscs>(scene.probes);
+}
+
+FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli) {
+  const auto wave = wave_of(scene);
+  if (!wave) throw InputError(scene.path.string() + ": [initial]: a state from files has no continuum counterpart; give a pulse or [drive]");
+  std::optional<ddem::Assembly> assembly;
+  if (moduli) assembly = build_assembly(scene);
+  const Rectangle box = assembly ? rectangle_of(scene, *assembly) : nominal_rectangle(scene).value();
+
+  FemPlan plan;
+  plan.layout = assembly ? lay_probes(scene, *assembly) : nominal_layout(scene, box);
+  const auto* pairs = std::get_if<ProbePairs>(&scene.probes);
+  plan.sections = pairs != nullptr && pairs->section;
+
+  FemCase& fem = plan.fem;
+  fem.id = "case";
+  fem.length = box.x1 - box.x0;
+  fem.width = box.width;
+  fem.material = continuum_material(scene, moduli, *wave);
+  fem.periodic = scene.assembly.periodic.y;
+  fem.right = scene.boundary.right;
+  fem.load = scene.load;
+  fem.column_spacing = mean_column_spacing(assembly, box);
+  if (scene.continuum) {
+    fem.degree = static_cast<int>(scene.continuum->degree);
+    fem.elements = {static_cast<int>(scene.continuum->elements[0]), static_cast<int>(scene.continuum->elements[1])};
+  }
+  if (const auto* fraction = std::get_if<StepFraction>(&scene.time.step)) fem.step_fraction = fraction->of_critical;
+  fem.sample_every = static_cast<int>(scene.time.sample_every);
+
+  plan.context = {fem.material.wave_speed(*wave, fem.periodic), fem.length, box.x0, source_centre(scene),
+                  source_duration(scene), source_amplitude(scene)};
+  fem.end = choose_end(scene, plan);
+  for (const Probe& p : plan.layout.probes) {
+    const double x = std::clamp(p.x - box.x0, 0.0, fem.length), y = std::clamp(p.y - box.y0, 0.0, fem.width);
+    if (plan.sections) {
+      fem.sections.push_back(x);
+    } else {
+      fem.points.push_back({x, y});
+    }
+  }
+  return plan;
+}
+
+const std::vector<std::vector<double>>& receiver_signals(const FemPlan& plan, const FemResult& result, Wave wave) {
+  if (plan.sections) return wave == Wave::longitudinal ? result.section_ux : result.section_uy;
+  return wave == Wave::longitudinal ? result.point_ux : result.point_uy;
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,27 @@
+#pragma once
+// The continuum model of a scene: the strip between the discs that the edge conditions act on, with the same load and
+// receivers at the places of the probes.
+
+#include "harness/run/fem_run.h"
+
+namespace ddem::harness {
+
+struct FemPlan {
+  FemCase fem;
+  ProbeLayout layout;
+  WaveContext context;
+  bool sections = false;  ///< probes are cross-sections, not points
+};
+
+/// `moduli` may be left out where [continuum] gives E, nu and density; then the packing is not built either, and probes
+/// lie at their nominal places. The strip reaches from the mean x of the left edge's discs to that of the right edge's.
+/// Throws InputError for a load that has no continuum counterpart (state files) and for missing material.
+FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli);
+
+/// Whether [continuum] leaves nothing to the discs, so that plan_fem needs no moduli.
+bool continuum_stands_alone(const Scene& scene);
+
+/// The signals of the receivers that belong to the plan's probes: the component of the wave.
+const std::vector<std::vector<double>>& receiver_signals(const FemPlan& plan, const FemResult& result, Wave wave);
+
+}  // namespace ddem::harness

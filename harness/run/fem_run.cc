@@ -1,0 +1,160 @@
+#include "harness/run/fem_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "harness/io/errors.h"
+#include "harness/io/hdf5.h"
+#include "harness/io/json.h"
+#include "harness/io/subprocess.h"
+#include "harness/run/temporary_folder.h"
+
+namespace ddem::harness {
+namespace {
+
+Json load_json(const FemCase& c) {
+  const auto wave_name = [](Wave w) { return w == Wave::longitudinal ? "longitudinal" : "shear"; };
+  if (const auto* drive = std::get_if<Drive>(&c.load)) {
+    return {{"wave", wave_name(drive->wave)}, {"shape", "sin2"}, {"duration", drive->duration}, {"amplitude", drive->amplitude}};
+  }
+  const InitialPulse& p = std::get<InitialPulse>(c.load);
+  Json j{{"wave", wave_name(p.wave)}, {"amplitude", p.amplitude}};
+  switch (p.shape) {
+    case PulseShape::column:
+      j["shape"] = "column";
+      j["spacing"] = c.column_spacing;
+      break;
+    case PulseShape::cosine:
+      j["shape"] = "cosine";
+      j["width"] = p.width;
+      break;
+    case PulseShape::gaussian:
+      j["shape"] = "gaussian";
+      j["width"] = p.width;
+      j["center"] = p.center;
+      break;
+  }
+  return j;
+}
+
+Json case_json(const FemCase& c) {
+  Json j{{"id", c.id},
+         {"length", c.length},
+         {"width", c.width},
+         {"elements", c.elements},
+         {"degree", c.degree},
+         {"young_modulus", c.material.young_modulus},
+         {"poisson_ratio", c.material.poisson_ratio},
+         {"density", c.material.density},
+         {"plane", "stress"},
+         {"top_bottom", c.periodic ? "periodic" : "free"},
+         {"right", c.right == Edge::free ? "free" : c.right == Edge::fixed_x ? "fixed_x" : "fixed"},
+         {"left", "free"},
+         {"time", {{"step_fraction", c.step_fraction}, {"end", c.end}}},
+         {"receivers", {{"points", c.points}, {"sections", c.sections}}},
+         {"sample_every", c.sample_every}};
+  j[std::holds_alternative<Drive>(c.load) ? "drive" : "initial"] = load_json(c);
+  return j;
+}
+
+std::string fem_program() {
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "ddem-fem";
+  if (!std::filesystem::exists(program)) {
+    throw MachineError(program.string() + " is missing: the finite-element reference was not built (it needs deal.II, "
+                                          "Debian package libdeal.ii-dev)");
+  }
+  return program.string();
+}
+
+/// time x receiver x (ux, uy), split into signals.
+void split(const Hdf5Array<double>& data, std::vector<std::vector<double>>& ux, std::vector<std::vector<double>>& uy) {
+  const std::size_t times = data.shape.at(0), receivers = data.shape.at(1);
+  ux.assign(receivers, std::vector<double>(times));
+  uy = ux;
+  for (std::size_t n = 0; n < times; ++n) {
+    for (std::size_t r = 0; r < receivers; ++r) {
+      ux[r][n] = data.values[(n * receivers + r) * 2];
+      uy[r][n] = data.values[(n * receivers + r) * 2 + 1];
+    }
+  }
+}
+
+FemResult read_result(const Hdf5Group& root, const FemCase& c) {
+  const Hdf5Group g = root.group(c.id);
+  FemResult r;
+  r.id = c.id;
+  r.status = g.string_attribute("status");
+  r.degree = c.degree;
+  r.elements = c.elements;
+  r.dofs = static_cast<long>(g.int_attribute("dofs"));
+  r.steps = static_cast<long>(g.int_attribute("steps"));
+  r.critical_time_step = g.double_attribute("critical_time_step");
+  r.time_step = g.double_attribute("time_step");
+  r.solve_seconds = g.double_attribute("solve_seconds");
+  r.energy_drift = g.double_attribute("energy_drift");
+  r.sample_interval = r.time_step * c.sample_every;
+  r.time = g.read_doubles("time").values;
+  if (!c.points.empty()) split(g.read_doubles("points"), r.point_ux, r.point_uy);
+  if (!c.sections.empty()) split(g.read_doubles("sections"), r.section_ux, r.section_uy);
+  return r;
+}
+
+}  // namespace
+
+double ContinuumMaterial::wave_speed(Wave wave, bool periodic) const {
+  const double e = young_modulus / density, nu = poisson_ratio;
+  if (wave == Wave::shear) return std::sqrt(e / (2.0 * (1.0 + nu)));
+  return std::sqrt(periodic ? e / (1.0 - nu * nu) : e);
+}
+
+std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case) {
+  if (cases.empty()) return {};
+  const std::string program = fem_program();
+  const TemporaryFolder folder("ddem-fem");
+  Json document{{"schema", 1}, {"cases", Json::array()}};
+  for (const FemCase& c : cases) document["cases"].push_back(case_json(c));
+  const auto input = folder.path() / "cases.json", output = folder.path() / "signals.h5";
+  write_json(input, document);
+  const SubprocessResult run =
+      run_program(program, {input.string(), "-o", output.string(), "--progress"}, [&](std::string_view line) {
+        if (on_case && line.starts_with("done ")) on_case();
+      });
+  // 3: a case was unstable; the others are in the file, and it says so itself.
+  if (!run.succeeded() && run.exit_code != 3) {
+    throw MachineError("ddem-fem failed (" + run.status() + "): " + run.standard_error);
+  }
+  const Hdf5File file = Hdf5File::open(output);
+  std::vector<FemResult> results;
+  for (const FemCase& c : cases) results.push_back(read_result(file.root(), c));
+  return results;
+}
+
+ContinuumMaterial continuum_material(const Scene& scene, const std::optional<SceneModuli>& moduli, Wave wave) {
+  ContinuumMaterial m;
+  if (moduli) {
+    const auto speed = moduli->speed_of(wave);
+    const auto isotropic = moduli->isotropic();
+    if (!speed || (!isotropic && !moduli->strip)) {
+      throw InputError(scene.path.string() + ": [continuum]: the static moduli of this packing do not give the material of "
+                                              "this wave; give young_modulus, poisson_ratio and density");
+    }
+    const bool bar = wave == Wave::longitudinal && moduli->strip;
+    m.density = moduli->bulk_density;
+    m.poisson_ratio = bar ? moduli->strip->lateral_contraction : isotropic->poisson();
+    // E such that the wave in question has the static speed of the very assembly.
+    const double nu = m.poisson_ratio, modulus = *speed * *speed * m.density;
+    m.young_modulus = bar ? modulus : wave == Wave::shear ? 2.0 * (1.0 + nu) * modulus : (1.0 - nu * nu) * modulus;
+  }
+  if (scene.continuum) {
+    m.young_modulus = scene.continuum->young_modulus.value_or(m.young_modulus);
+    m.poisson_ratio = scene.continuum->poisson_ratio.value_or(m.poisson_ratio);
+    m.density = scene.continuum->density.value_or(m.density);
+  }
+  return m;
+}
+
+}  // namespace ddem::harness

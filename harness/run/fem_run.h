@@ -1,0 +1,63 @@
+#pragma once
+// The continuum model of a scene's strip: cases for the program ddem-fem, which runs many in one process, and its
+// signals. The harness and the finite-element program meet in files only.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/measure/signal.h"
+#include "harness/model/probes.h"
+#include "harness/run/measure_wave.h"
+#include "harness/run/scene_moduli.h"
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+struct ContinuumMaterial {
+  double young_modulus = 0.0, poisson_ratio = 0.0;  ///< plane moduli
+  double density = 0.0;                             ///< bulk, kg/m3
+  double wave_speed(Wave wave, bool periodic) const;  ///< bar, shear or P
+};
+
+struct FemCase {
+  std::string id;
+  double length = 0.0, width = 0.0;
+  std::array<int, 2> elements{66, 8};
+  int degree = 4;
+  ContinuumMaterial material;
+  bool periodic = false;  ///< top and bottom
+  Edge right = Edge::fixed_x;
+  Load load;               ///< InitialPulse or Drive
+  double column_spacing = 0.0;  ///< of the discs' columns, for the shape "column"
+  double step_fraction = 0.2;
+  double end = 0.0;        ///< s
+  int sample_every = 1;
+  std::vector<std::array<double, 2>> points;  ///< m, from the lower left corner
+  std::vector<double> sections;               ///< m, from the left end
+};
+
+struct FemResult {
+  std::string id;
+  std::string status;  ///< "ok", or why the signals are not to be used
+  int degree = 0;
+  long dofs = 0, steps = 0;
+  std::array<int, 2> elements{};
+  double critical_time_step = 0.0, time_step = 0.0, sample_interval = 0.0, solve_seconds = 0.0, energy_drift = 0.0;
+  std::vector<double> time;
+  /// [receiver][sample]
+  std::vector<std::vector<double>> point_ux, point_uy, section_ux, section_uy;
+};
+
+/// Runs all cases in one process of ddem-fem, which stands beside the running program. `on_case` hears of each case
+/// that is finished. Throws MachineError if the program is missing or dies, SolverError if its output cannot be used.
+std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case = {});
+
+/// The material of a scene's continuum: [continuum] where given, else the static moduli of the assembly; for a bar the
+/// Young's modulus and contraction of the very strip, for shear and P the directional stiffness.
+ContinuumMaterial continuum_material(const Scene& scene, const std::optional<SceneModuli>& moduli, Wave wave);
+
+}  // namespace ddem::harness

@@ -1,0 +1,43 @@
+#include "harness/run/measure_wave.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ddem::harness {
+
+Window causal_window(const WaveContext& c, double x) {
+  const double s = x - c.left_end;
+  // Nothing of the pulse's top arrives at twice the expected speed; what comes back from the right end is a reflection.
+  // A pulse released inside the strip comes a second time, from the left end.
+  const double first = std::max(0.0, std::abs(s - c.source_centre) / (2.0 * c.speed));
+  const double from_the_right = (2.0 * c.length - s - c.source_centre) / c.speed;
+  const double from_the_left = s / c.speed;
+  return {first, c.source_centre > 0.0 ? std::min(from_the_left, from_the_right) : from_the_right};
+}
+
+double time_of_passage(const WaveContext& c, double x, double margin) {
+  const double travel = std::abs(x - c.left_end - c.source_centre) / c.speed;
+  return (1.0 + margin) * travel + 0.75 * c.source_duration;
+}
+
+WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, double dt,
+                             const ProbeLayout& layout, const WaveContext& context) {
+  std::vector<ProbePick> picks;
+  PickOptions options;
+  // A released pulse splits in two, and a column disperses: half of the source, of which a tenth must arrive.
+  options.expected_amplitude = 0.5 * context.source_amplitude;
+  for (int p = 0; p < static_cast<int>(layout.probes.size()); ++p) {
+    const Signal signal{signals[p], dt, 0.0};
+    Window window = causal_window(context, layout.probes[p].x);
+    window.end = std::min(window.end, signal.time(static_cast<double>(signal.size() - 1)));
+    picks.push_back({p, window.end > window.begin ? pick_peak(signal, window, options)
+                                                    : Pick(FailedMeasurement{Failure::empty_window, "the signal ends before the wave can have arrived"})});
+  }
+  std::vector<PairDelay> delays;
+  for (const ProbePair& pair : layout.pairs) {
+    delays.push_back({pair.from, pair.to, pair.distance, delay_between(picks[pair.from].pick, picks[pair.to].pick)});
+  }
+  return {std::move(picks), wave_speed(delays, delays.size() / 2 + 1)};
+}
+
+}  // namespace ddem::harness

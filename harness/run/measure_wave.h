@@ -1,0 +1,44 @@
+#pragma once
+// From recorded signals to a wave speed: windows free of reflections, a pick at each probe, the speed of each pair.
+// The same for particles and continuum.
+
+#include <string>
+#include <vector>
+
+#include "harness/measure/picker.h"
+#include "harness/measure/wave_speed.h"
+#include "harness/model/probes.h"
+
+namespace ddem::harness {
+
+/// What is known of the wave before it is measured.
+struct WaveContext {
+  double speed = 0.0;            ///< expected, m/s: static, or the kinematic estimate
+  double length = 0.0;           ///< of the strip, m
+  double left_end = 0.0;         ///< x of the source, m
+  double source_centre = 0.0;    ///< where the source's maximum starts, m from the left end
+  double source_duration = 0.0;  ///< of a driven edge, s
+  double source_amplitude = 0.0; ///< m
+};
+
+/// [first possible arrival, first arrival of a reflection) at a probe.
+Window causal_window(const WaveContext& context, double x);
+
+/// When the peak has passed x, with a margin of `margin` times the travel time: how long a run must last.
+double time_of_passage(const WaveContext& context, double x, double margin);
+
+struct ProbePick {
+  int probe = 0;
+  Pick pick;
+};
+
+struct WaveMeasurement {
+  std::vector<ProbePick> picks;
+  WaveSpeed speed;
+};
+
+/// `signals[p]` belongs to `probes[p]`; the component that carries the wave. A mean needs more than half of the pairs.
+WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, double dt,
+                             const ProbeLayout& layout, const WaveContext& context);
+
+}  // namespace ddem::harness

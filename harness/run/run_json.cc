@@ -1,0 +1,118 @@
+#include "harness/run/run_json.h"
+
+namespace ddem::harness {
+namespace {
+
+/// wave_speed, wave_speed_stddev and pairs; what was not measured is a status with the reason.
+void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const ProbeLayout& layout, const std::string& why_not) {
+  if (!m) {
+    j["wave_speed"] = {{"status", why_not}};
+    j["pairs"] = Json::array();
+    return;
+  }
+  if (m->speed.speed.ok()) {
+    const SpeedStatistics& s = m->speed.speed.value();
+    j["wave_speed"] = s.mean;
+    j["wave_speed_stddev"] = s.stddev ? Json(*s.stddev) : Json{{"status", "a single pair has no standard deviation"}};
+  } else {
+    j["wave_speed"] = {{"status", m->speed.speed.error().reason}};
+  }
+  j["good_pairs"] = m->speed.good_pairs;
+  j["pairs"] = Json::array();
+  for (const PairSpeed& p : m->speed.pairs) {
+    Json pair{{"from", layout.probes[p.from].name}, {"to", layout.probes[p.to].name}, {"distance", p.distance}};
+    if (p.speed.ok()) {
+      pair["delay"] = p.delay.value();
+      pair["speed"] = p.speed.value();
+      pair["status"] = "ok";
+    } else {
+      pair["status"] = p.speed.error().reason;
+    }
+    j["pairs"].push_back(pair);
+  }
+}
+
+}  // namespace
+
+Json run_json(const DemRun& run) {
+  const SimulationResult& r = run.result;
+  Json j{{"status", "ok"}};
+  if (r.divergence) {
+    j["status"] = "diverged";
+    j["diverged_step"] = r.divergence->step;
+    j["diverged_disc"] = r.divergence->disc;
+  }
+  j["warnings"] = run.warnings;
+  j["discs"] = run.assembly.size();
+  j["bonds"] = run.assembly.bonds.size();
+  j["rattlers"] = run.assembly.rattlers.size();
+  j["bulk_density"] = bulk_density(run.assembly);
+  j["critical_time_step"] = run.critical_time_step;
+  j["time_step"] = run.time_step;
+  j["steps"] = r.steps_done;
+  j["wall_seconds"] = r.wall_seconds;
+  if (r.steps_done > 0) {
+    j["nanoseconds_per_bond_step"] =
+        1e9 * r.wall_seconds / (static_cast<double>(run.assembly.bonds.size()) * static_cast<double>(r.steps_done));
+  }
+  j["energy_drift"] = r.energy_drift ? Json(*r.energy_drift)
+                                     : Json{{"status", "not audited: nonlinear kinematics has no leapfrog invariant, or the run "
+                                                       "ended before its source did"}};
+  add_measurement(j, run.measurement, run.layout, r.divergence ? "the run diverged" : "the scene has no pairs of probes and pulse");
+  return j;
+}
+
+Json moduli_json(const SceneModuli& m) {
+  Json j{{"status", "ok"},
+         {"method", m.method},
+         {"discs", m.discs},
+         {"bonds", m.bonds},
+         {"rattlers", m.rattlers},
+         {"coordination", m.coordination},
+         {"solid_fraction", m.solid_fraction},
+         {"bulk_density", m.bulk_density}};
+  if (m.stiffness) {
+    Json rows = Json::array();
+    for (int i = 0; i < 3; ++i) rows.push_back({(*m.stiffness)(i, 0), (*m.stiffness)(i, 1), (*m.stiffness)(i, 2)});
+    j["stiffness"] = rows;
+    const IsotropicModuli iso = *m.isotropic();
+    j["young_modulus"] = iso.young();
+    j["shear_modulus"] = iso.shear;
+    j["bulk_modulus"] = iso.bulk;
+    j["poisson_ratio"] = iso.poisson();
+    const DirectionalSpeeds s = *m.speeds();
+    j["bar_velocity"] = s.bar;
+    j["shear_velocity"] = s.s;
+    j["p_velocity"] = s.p;
+  } else {
+    j["stiffness"] = {{"status", m.method}};
+    j["bar_velocity"] = m.strip->bar_velocity();
+  }
+  if (m.strip) {
+    j["strip"] = {{"axial_stiffness", m.strip->axial_stiffness},
+                  {"mass_per_length", m.strip->mass_per_length},
+                  {"lateral_contraction", m.strip->lateral_contraction},
+                  {"bar_velocity", m.strip->bar_velocity()}};
+  }
+  return j;
+}
+
+Json fem_json(const FemPlan& plan, const FemResult& r, const std::optional<WaveMeasurement>& measurement) {
+  Json j{{"status", r.status},
+         {"degree", r.degree},
+         {"elements", r.elements},
+         {"dofs", r.dofs},
+         {"young_modulus", plan.fem.material.young_modulus},
+         {"poisson_ratio", plan.fem.material.poisson_ratio},
+         {"density", plan.fem.material.density},
+         {"critical_time_step", number_or_status(r.critical_time_step, r.status)},
+         {"time_step", number_or_status(r.time_step, r.status)},
+         {"steps", r.steps},
+         {"solve_seconds", r.solve_seconds},
+         {"energy_drift", number_or_status(r.energy_drift, "not measured")},
+         {"analytical_speed", plan.context.speed}};
+  add_measurement(j, measurement, plan.layout, r.status == "ok" ? "the scene has no pairs of probes" : r.status);
+  return j;
+}
+
+}  // namespace ddem::harness

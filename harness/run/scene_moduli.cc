@@ -1,0 +1,101 @@
+#include "harness/run/scene_moduli.h"
+
+#include <stdexcept>
+
+#include "dem/assembly/contacts.h"
+#include "harness/io/errors.h"
+#include "harness/model/assemble.h"
+#include "harness/references/effective_moduli.h"
+
+namespace ddem::harness {
+namespace {
+
+references::ContactModel contact_model(const DeformationParameters& d) {
+  if (!d.active()) return references::ContactModel::dem;
+  switch (d.correction) {
+    case ddem::Correction::normal: return references::ContactModel::ddem_normal;
+    case ddem::Correction::full: return references::ContactModel::ddem_full;
+    case ddem::Correction::normal_only_stress: return references::ContactModel::ddem_normal_only_stress;
+  }
+  return references::ContactModel::dem;
+}
+
+/// Homogenisation in the directions in which the assembly is periodic.
+PlaneStiffness homogenise(const Scene& scene, const ddem::Assembly& a) {
+  const ContactParameters contact = contact_parameters(scene);
+  const DeformationParameters deformation = deformation_parameters(scene);
+  if (a.packing.period.x > 0.0 && a.packing.period.y > 0.0) return homogenise_cell(a, contact, deformation);
+  return homogenise_strip(a, contact, deformation, edge_band(scene, a));
+}
+
+}  // namespace
+
+std::optional<IsotropicModuli> SceneModuli::isotropic() const {
+  if (!stiffness) return std::nullopt;
+  return isotropic_part(*stiffness);
+}
+
+std::optional<DirectionalSpeeds> SceneModuli::speeds() const {
+  if (!stiffness) return std::nullopt;
+  DirectionalSpeeds s = directional_speeds(*stiffness, bulk_density);
+  if (strip) s.bar = strip->bar_velocity();
+  return s;
+}
+
+std::optional<double> SceneModuli::speed_of(Wave wave) const {
+  if (wave == Wave::longitudinal && strip) return strip->bar_velocity();
+  const auto s = speeds();
+  if (!s) return std::nullopt;
+  return wave == Wave::shear ? s->s : s->p;
+}
+
+SceneModuli scene_moduli(const Scene& scene) {
+  const ddem::Assembly a = build_assembly(scene);
+  SceneModuli m;
+  m.discs = static_cast<int>(a.size());
+  m.bonds = static_cast<int>(a.bonds.size());
+  m.rattlers = static_cast<int>(a.rattlers.size());
+  m.coordination = coordination(a.bonds, a.size());
+  m.solid_fraction = solid_fraction(a);
+  m.bulk_density = bulk_density(a);
+  try {
+    if (scene.assembly.periodic.y) {
+      m.method = scene.assembly.periodic.x ? "homogenisation of the cell periodic in x and y"
+                                           : "homogenisation periodic in y, between inner sections along x";
+      m.stiffness = homogenise(scene, a);
+      return m;
+    }
+    if (const auto closed = build_laterally_closed(scene)) m.stiffness = homogenise(scene, *closed);
+    m.strip = pull_strip(a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a));
+    m.method = m.stiffness ? "the packing closed in y, homogenised; bar speed from the free strip under tension"
+                           : "the free strip under tension only: a packing from a file cannot be closed in y";
+  } catch (const std::invalid_argument& e) {
+    throw InputError(scene.path.string() + ": [assembly]: " + e.what());
+  } catch (const std::runtime_error& e) {
+    throw SolverError(std::string("static moduli: ") + e.what());
+  }
+  return m;
+}
+
+references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembly& a) {
+  const ContactParameters contact = contact_parameters(scene);
+  const DeformationParameters deformation = deformation_parameters(scene);
+  references::Disc disc;
+  disc.thickness = a.thickness;
+  if (deformation.active()) {
+    disc.material = deformation.plane == ddem::Plane::strain
+                        ? references::plane_strain_constants(deformation.young_modulus, deformation.poisson_ratio)
+                        : references::PlaneConstants{deformation.young_modulus, deformation.poisson_ratio};
+  }
+  const references::Fabric fabric = references::random_fabric(a.bonds.length, a.packing.radius, a.area());
+  return references::effective_moduli(contact_model(deformation), fabric,
+                                      {contact.normal_stiffness, contact.stiffness_ratio}, disc);
+}
+
+double kinematic_speed(const Scene& scene, const ddem::Assembly& a, Wave wave) {
+  const auto speeds = references::bulk_wave_speeds(kinematic_moduli(scene, a), bulk_density(a));
+  if (wave == Wave::shear) return speeds.shear;
+  return scene.assembly.periodic.y ? speeds.p : speeds.bar;
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,249 @@
+#include "harness/scene/check_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace ddem::harness {
+namespace {
+
+// Keys of which the first given one decides: those of `second` contradict it. Lists as in KeySpec::choices.
+struct Contradiction {
+  std::string_view first, second;
+};
+
+// A key that means something only for some choices of another.
+struct OnlyWith {
+  std::string_view key, selector, choices;
+};
+
+constexpr Contradiction contradictions[] = {
+    {"assembly.bonds", "assembly.bond_gap | assembly.coordination"},
+    {"assembly.bond_gap", "assembly.coordination"},
+    {"contact.normal_stiffness", "contact.contact_modulus"},
+    {"initial.displacement | initial.velocity",
+     "initial.wave | initial.shape | initial.width | initial.center | initial.amplitude"},
+    {"time.step", "time.step_fraction"},
+    {"time.end", "time.steps"},
+    {"probes.pairs", "probes.discs | probes.points"},
+    {"probes.discs", "probes.points"},
+};
+
+constexpr OnlyWith only_with[] = {
+    {"assembly.discs", "assembly.packing", "random | hexagonal"},
+    {"assembly.radius_ratio", "assembly.packing", "random"},
+    {"assembly.walls", "assembly.packing", "random"},
+    {"assembly.close_packed_along", "assembly.packing", "hexagonal"},
+    {"assembly.columns", "assembly.packing", "hexagonal"},
+    {"assembly.rows", "assembly.packing", "hexagonal"},
+    {"assembly.radius", "assembly.packing", "hexagonal"},
+    {"assembly.file", "assembly.packing", "file"},
+    {"assembly.bonds", "assembly.packing", "file"},
+    {"deformation.evaluations", "deformation.scheme", "lagged | none"},
+    {"deformation.relaxation", "deformation.scheme", "lagged | none"},
+    {"initial.center", "initial.shape", "gaussian"},
+};
+
+using Keys = std::vector<std::string_view>;
+
+bool any_given(const Values& values, const Keys& keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return values.given(key); });
+}
+
+void require(Values& values, std::string_view key) {
+  if (values.given(key) || values.has(key)) return;
+  const KeySpec& spec = scene_keys()[find_key(key).value()];
+  values.reject(key, "missing", "give " + describe_value(spec));
+}
+
+void check_contradictions(Values& values) {
+  for (const Contradiction& contradiction : contradictions) {
+    const Keys firsts = split_names(contradiction.first);
+    const auto first =
+        std::find_if(firsts.begin(), firsts.end(), [&](std::string_view key) { return values.given(key); });
+    if (first == firsts.end()) continue;
+    for (const std::string_view key : split_names(contradiction.second)) {
+      if (values.given(key)) values.reject(key, fmt::format("contradicts {}", *first), "give one of the two");
+    }
+  }
+  if (values.has("probes.section") && values.flag("probes.section") &&
+      any_given(values, {"probes.discs", "probes.points"})) {
+    values.reject("probes.section", "sections are averaged for pairs only",
+                  "use pairs, or leave section out");
+  }
+}
+
+void check_only_with(Values& values) {
+  for (const OnlyWith& rule : only_with) {
+    if (!values.given(rule.key) || !values.has(rule.selector)) continue;
+    const Keys choices = split_names(rule.choices);
+    const bool fits = std::any_of(choices.begin(), choices.end(),
+                                  [&](std::string_view choice) { return values.is(rule.selector, choice); });
+    if (fits) continue;
+    values.reject(
+        rule.key,
+        fmt::format("means nothing unless {} = \"{}\"", rule.selector, fmt::join(choices, "\" or \"")),
+        "leave it out");
+  }
+}
+
+bool periodic_x(const Values& values) {
+  return values.is("assembly.periodic", "xy");
+}
+bool periodic_y(const Values& values) {
+  return periodic_x(values) || values.is("assembly.periodic", "y") ||
+         values.is("boundary.top_bottom", "periodic");
+}
+
+void check_hexagonal(Values& values) {
+  const Keys lattice{"assembly.columns", "assembly.rows", "assembly.radius"};
+  const Keys rectangle{"assembly.length", "assembly.width", "assembly.discs"};
+  const bool by_lattice = any_given(values, lattice);
+  if (by_lattice) {
+    for (const std::string_view key : rectangle) {
+      if (values.given(key)) {
+        values.reject(key, "contradicts columns, rows and radius",
+                      "give either length, width and discs, or columns, rows and radius");
+      }
+    }
+    for (const std::string_view key : lattice) require(values, key);
+    const bool countable = values.has("assembly.columns") && values.has("assembly.rows");
+    constexpr double max_discs = 1e8;
+    if (countable && static_cast<double>(values.integer("assembly.columns")) *
+                             static_cast<double>(values.integer("assembly.rows")) >
+                         max_discs) {
+      values.reject("assembly.columns", fmt::format("more than {} discs with these rows", max_discs),
+                    "take fewer");
+    }
+  } else if (any_given(values, rectangle) || !periodic_x(values)) {
+    for (const std::string_view key : rectangle) require(values, key);
+  }
+}
+
+void check_assembly(Values& values, bool discs_needed) {
+  if (values.is("assembly.packing", "file")) {
+    require(values, "assembly.file");
+    if (periodic_y(values)) require(values, "assembly.width");
+    if (periodic_x(values)) require(values, "assembly.length");
+  } else if (values.is("assembly.packing", "hexagonal")) {
+    check_hexagonal(values);
+  } else if (!values.given("assembly.packing") || values.is("assembly.packing", "random")) {
+    if (discs_needed) require(values, "assembly.packing");
+    require(values, "assembly.length");
+    require(values, "assembly.width");
+    if (discs_needed) require(values, "assembly.discs");
+  }
+}
+
+void check_materials(Values& values, bool discs_move) {
+  if (discs_move || values.table_given("material")) require(values, "material.density");
+  if (discs_move || values.table_given("contact")) {
+    if (!values.given("contact.contact_modulus")) require(values, "contact.normal_stiffness");
+    require(values, "contact.stiffness_ratio");
+  }
+  if (!values.table_given("deformation") || values.is("deformation.scheme", "none")) return;
+  require(values, "deformation.young_modulus");
+  require(values, "deformation.poisson_ratio");
+  const bool strain = values.is("deformation.plane", "strain") && values.has("deformation.poisson_ratio");
+  if (strain && values.number("deformation.poisson_ratio") >= 0.5) {
+    values.reject("deformation.poisson_ratio", "impossible in plane strain: 0.5 is incompressible",
+                  "give a number greater than -1 and less than 0.5");
+  }
+}
+
+void check_load(Values& values, Purpose purpose) {
+  const bool initial = values.table_given("initial");
+  const bool drive = values.table_given("drive");
+  if (initial && drive) {
+    values.reject_table("drive", "contradicts [initial]", "give one of the two");
+  }
+  const bool moves = purpose == Purpose::simulation || purpose == Purpose::continuum;
+  if (!initial && !drive && moves) {
+    values.reject_table("initial", "missing: nothing would move",
+                        "give a table [initial] or a table [drive]");
+  }
+  if (initial && !any_given(values, {"initial.displacement", "initial.velocity"})) {
+    require(values, "initial.wave");
+    require(values, "initial.amplitude");
+    if (values.is("initial.shape", "cosine") || values.is("initial.shape", "gaussian")) {
+      require(values, "initial.width");
+    }
+  }
+  if (drive) {
+    require(values, "drive.wave");
+    require(values, "drive.duration");
+    require(values, "drive.amplitude");
+  }
+}
+
+// A left edge that is held cannot be displaced.
+void check_left_edge(Values& values, Purpose purpose) {
+  if (purpose == Purpose::packing || purpose == Purpose::statics) return;
+  const bool column = any_given(values, {"initial.wave"}) && values.is("initial.shape", "column");
+  const bool drive = values.table_given("drive");
+  if (!column && !drive) return;
+  if (periodic_x(values)) {
+    values.reject("assembly.periodic", "there is no left edge to displace in a cell that is periodic in x",
+                  "use \"y\", or another load");
+  }
+  const std::string_view wave = drive ? "drive.wave" : "initial.wave";
+  const bool held = values.is("boundary.left", "fixed") ||
+                    (values.is("boundary.left", "fixed_x") && values.is(wave, "longitudinal"));
+  if (held) {
+    values.reject("boundary.left",
+                  fmt::format("the left edge is held, but {} displaces it", drive ? "[drive]" : "[initial]"),
+                  "use left = \"free\"");
+  }
+}
+
+void check_time(Values& values) {
+  if (!values.given("time.step_fraction") || !values.has("time.step_fraction")) return;
+  if (!values.has("time.allow_above_critical") || values.flag("time.allow_above_critical")) return;
+  if (values.number("time.step_fraction") <= 1.0) return;
+  values.reject("time.step_fraction", "a step above the critical one is unstable",
+                "give at most 1, or allow_above_critical = true for a stability study");
+}
+
+void check_probes(Values& values) {
+  const bool random = values.is("assembly.packing", "random");
+  if (random && values.has("assembly.discs") && values.has("probes.discs")) {
+    const auto& discs = values.integers("probes.discs");
+    const std::int64_t last = *std::max_element(discs.begin(), discs.end());
+    const std::int64_t count = values.integer("assembly.discs");
+    if (last >= count) {
+      values.reject("probes.discs", fmt::format("there is no disc {}", last),
+                    fmt::format("discs are 0 to {}", count - 1));
+    }
+  }
+  if (!values.has("probes.points") || !values.has("assembly.length") || !values.has("assembly.width")) return;
+  const double length = values.number("assembly.length");
+  const double width = values.number("assembly.width");
+  for (const Point& point : values.points("probes.points")) {
+    if (point[0] >= 0.0 && point[0] <= length && point[1] >= 0.0 && point[1] <= width) continue;
+    values.reject("probes.points",
+                  fmt::format("the point [{}, {}] lies outside the strip", point[0], point[1]),
+                  fmt::format("x is from 0 to {} and y from 0 to {}, in metres", length, width));
+  }
+}
+
+}  // namespace
+
+bool continuum_is_complete(const Values& values) {
+  return values.given("continuum.young_modulus") && values.given("continuum.poisson_ratio") &&
+         values.given("continuum.density");
+}
+
+void check_scene(Values& values, Purpose purpose) {
+  const bool discs_needed = purpose != Purpose::continuum || !continuum_is_complete(values);
+  check_contradictions(values);
+  check_only_with(values);
+  check_assembly(values, discs_needed);
+  check_materials(values, discs_needed && purpose != Purpose::packing);
+  check_load(values, purpose);
+  check_left_edge(values, purpose);
+  check_time(values);
+  check_probes(values);
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,265 @@
+#include "harness/scene/keys.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace ddem::harness {
+namespace {
+
+using enum Dimension;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr std::string_view no_default{};
+constexpr Range any{};
+constexpr Range positive{.low = 0.0, .low_excluded = true};
+constexpr Range non_negative{.low = 0.0};
+constexpr Range non_zero{.zero_excluded = true};
+constexpr Range between_minus_one_and_one{
+    .low = -1.0, .high = 1.0, .low_excluded = true, .high_excluded = true};
+constexpr Range fraction{.low = 0.0, .high = 1.0, .low_excluded = true};
+constexpr Range from(double low, double high = unlimited) {
+  return {.low = low, .high = high};
+}
+
+// Disc numbers are ints in the solver; a strip of 1e8 discs needs more memory than it is worth.
+constexpr double max_discs = 1e8;
+
+constexpr TableSpec tables[] = {
+    {"assembly", "the discs, and who is bonded to whom"},
+    {"material", "of the discs"},
+    {"contact", "the law of the bonds"},
+    {"deformation", "deformable discs (DDEM); without this table plain DEM"},
+    {"boundary", "the edges of the strip"},
+    {"initial", "a displacement at the start: a pulse, or any state from files"},
+    {"drive", "a prescribed motion of the left edge, instead of [initial]"},
+    {"continuum", "for ddem fem"},
+    {"time", "steps and end"},
+    {"probes", "where signals are taken"},
+    {"run", "the machine"},
+};
+
+// Rows of the table, by type of value. `initial` is the default.
+using Name = std::string_view;
+
+constexpr KeySpec text(Name table, Name key, Name initial, Name doc) {
+  return {table, key, ValueType::text, none, any, "", initial, doc};
+}
+constexpr KeySpec file(Name table, Name key, Name doc) {
+  return {table, key, ValueType::file, none, any, "", no_default, doc};
+}
+constexpr KeySpec choice(Name table, Name key, Name choices, Name initial, Name doc) {
+  return {table, key, ValueType::choice, none, any, choices, initial, doc};
+}
+constexpr KeySpec quantity(Name table, Name key, Dimension dimension, Range range, Name initial, Name doc) {
+  return {table, key, ValueType::number, dimension, range, "", initial, doc};
+}
+constexpr KeySpec number(Name table, Name key, Range range, Name initial, Name doc) {
+  return quantity(table, key, none, range, initial, doc);
+}
+constexpr KeySpec integer(Name table, Name key, Range range, Name initial, Name doc) {
+  return {table, key, ValueType::integer, none, range, "", initial, doc};
+}
+constexpr KeySpec boolean(Name table, Name key, Name initial, Name doc) {
+  return {table, key, ValueType::boolean, none, any, "", initial, doc};
+}
+
+constexpr KeySpec keys[] = {
+    text("", "title", "\"\"", "name of the scene in reports"),
+
+    choice("assembly", "packing", "random | hexagonal | file", no_default,
+           "random: jammed discs of different sizes; hexagonal: equal touching discs; file: your own"),
+    quantity("assembly", "length", length, positive, no_default,
+             "of the strip, along x; for a file: the period, where periodic"),
+    quantity("assembly", "width", length, positive, no_default,
+             "of the strip, along y; for a file: the period, where periodic"),
+    integer("assembly", "discs", from(1, max_discs), no_default, "how many"),
+    integer("assembly", "seed", non_negative, "1",
+            "random: another seed is another packing; the same seed is the same packing, to the bit"),
+    number("assembly", "radius_ratio", from(1, 10), "1.67", "random: largest over smallest radius"),
+    choice("assembly", "walls", "periodic | flat", "\"periodic\"",
+           "random: packed in a periodic cell, whose bonds across free edges are cut, or between flat walls"),
+    choice("assembly", "close_packed_along", "x | y", "\"x\"",
+           "hexagonal: direction of the rows of touching discs"),
+    integer("assembly", "columns", from(1, max_discs), no_default,
+            "hexagonal: discs in a row; with rows and radius instead of length, width and discs"),
+    integer("assembly", "rows", from(1, max_discs), no_default, "hexagonal: rows"),
+    quantity("assembly", "radius", length, positive, no_default, "hexagonal: of every disc"),
+    file("assembly", "file", "file: CSV with header x,y,radius (metres)"),
+    file("assembly", "bonds",
+         "file: CSV with header i,j (discs counted from 0); without it bond_gap decides"),
+    number("assembly", "bond_gap", from(0, 2), "0.3",
+           "bonded when the gap is at most this times the mean radius (random: see coordination)"),
+    number("assembly", "coordination", positive, "5.8",
+           "bonds of a disc on average, which chooses the gap; the default is for random packings"),
+    choice("assembly", "periodic", " | y | xy", "\"\"",
+           "overrides boundary.top_bottom, for moduli of a cell; \"\" does not"),
+    number("assembly", "edge_band", positive, "1.2",
+           "an edge's discs have their centres within so many mean radii of the outermost centre"),
+    quantity("assembly", "thickness", length, positive, "1.0", "out of the plane"),
+
+    quantity("material", "density", density, positive, no_default, "of a disc, not of the assembly"),
+
+    quantity("contact", "normal_stiffness", stiffness, positive, no_default, "k_n, the same for every bond"),
+    quantity("contact", "contact_modulus", stress, positive, no_default,
+             "instead of normal_stiffness: k_n of a bond in proportion to its size"),
+    number("contact", "stiffness_ratio", non_negative, no_default, "k_t / k_n"),
+    choice("contact", "kinematics", "linear | nonlinear", "\"linear\"",
+           "small displacements, or current geometry with incremental shear"),
+    choice("contact", "new_contacts", "auto | off", "\"auto\"",
+           "whether discs that are not bonded repel when they meet"),
+
+    choice("deformation", "scheme", "none | lagged | implicit", "\"lagged\"",
+           "none: plain DEM; lagged: the published scheme; implicit: consistent"),
+    integer("deformation", "evaluations", from(1, 1000), "1", "lagged: force evaluations a step"),
+    number("deformation", "relaxation", fraction, "1.0", "lagged: under-relaxation of the particle strains"),
+    choice("deformation", "correction", "normal | full | normal_only_stress", "\"normal\"",
+           "N (published): normal overlaps; F: also slips; NN: stress from normal forces"),
+    quantity("deformation", "young_modulus", stress, positive, no_default, "of the disc"),
+    number("deformation", "poisson_ratio", between_minus_one_and_one, no_default,
+           "of the disc; below 0.5 in plane strain"),
+    choice("deformation", "plane", "stress | strain", "\"stress\"",
+           "plane stress or plane strain of the disc"),
+
+    choice("boundary", "top_bottom", "free | periodic", "\"free\"",
+           "free edges: a bar; periodic: an infinitely wide strip"),
+    choice("boundary", "right", "free | fixed_x | fixed", "\"fixed_x\"", "the discs of the right edge"),
+    choice("boundary", "left", "free | fixed_x | fixed", "\"free\"", "the discs of the left edge"),
+
+    choice("initial", "wave", "longitudinal | shear", no_default, "displacement along x or along y"),
+    choice("initial", "shape", "column | cosine | gaussian", "\"column\"",
+           "the left-edge discs only; amplitude/2 (1 + cos(pi s/width)); amplitude exp(-(s-center)^2/(2 "
+           "width^2))"),
+    quantity("initial", "width", length, positive, no_default,
+             "cosine: of its support; gaussian: standard deviation"),
+    quantity("initial", "center", length, any, "0.0", "gaussian: from the left end"),
+    quantity("initial", "amplitude", length, non_zero, no_default, "largest displacement"),
+    file("initial", "displacement", "instead of a pulse: CSV with header ux,uy,theta, one row a disc"),
+    file("initial", "velocity", "instead of a pulse: CSV with header ux,uy,theta, one row a disc"),
+
+    choice("drive", "wave", "longitudinal | shear", no_default, "displacement along x or along y"),
+    choice("drive", "shape", "sin2", "\"sin2\"",
+           "u = amplitude sin^2(pi t/duration) until the duration, then held at 0"),
+    quantity("drive", "duration", time, positive, no_default, "of the motion"),
+    quantity("drive", "amplitude", length, non_zero, no_default, "largest displacement"),
+
+    quantity("continuum", "young_modulus", stress, positive, no_default,
+             "without it: from the assembly's static moduli"),
+    number("continuum", "poisson_ratio", between_minus_one_and_one, no_default,
+           "in the plane; without it: from the assembly's static moduli"),
+    quantity("continuum", "density", density, positive, no_default,
+             "without it: the assembly's bulk density"),
+    integer("continuum", "degree", from(1, 8), "4", "of the elements"),
+    {"continuum", "elements", ValueType::counts, none, from(1, 1e5), "", "[66, 8]", "along x and along y"},
+
+    choice("time", "integrator", "verlet | exact", "\"verlet\"",
+           "velocity Verlet; exact: exact in time at the probes, linear scenes"),
+    number("time", "step_fraction", positive, "0.2", "time step as a fraction of the critical one"),
+    quantity("time", "step", time, positive, no_default, "instead of step_fraction: the time step"),
+    quantity("time", "end", time, positive, no_default,
+             "when to stop; without it and steps: when the last probe has seen its peak"),
+    integer("time", "steps", from(1, 1e12), no_default, "instead of end"),
+    integer("time", "sample_every", from(1, 1e12), "1", "steps from one row of the signals to the next"),
+    boolean("time", "allow_above_critical", "false",
+            "for stability studies: let a step exceed the critical one"),
+
+    integer("probes", "pairs", from(1, 1000), "5", "pairs of discs at known distances"),
+    boolean("probes", "section", "false", "with pairs: average the discs of a cross-section"),
+    {"probes", "discs", ValueType::indices, none, from(0, max_discs), "", no_default,
+     "instead of pairs: discs, counted from 0"},
+    {"probes", "points", ValueType::points, length, any, "", no_default,
+     "instead of pairs: [[x, y], ...] from the lower left corner; discs: the nearest"},
+
+    integer("run", "threads", from(1, 1024), "1", "the results have the same bits for any number"),
+};
+
+}  // namespace
+
+std::span<const TableSpec> scene_tables() {
+  return tables;
+}
+std::span<const KeySpec> scene_keys() {
+  return keys;
+}
+
+std::string dotted_name(std::string_view table, std::string_view key) {
+  return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+}
+
+std::optional<std::size_t> find_key(std::string_view dotted) {
+  const std::size_t dot = dotted.find('.');
+  return dot == std::string_view::npos ? find_key("", dotted)
+                                       : find_key(dotted.substr(0, dot), dotted.substr(dot + 1));
+}
+
+std::optional<std::size_t> find_key(std::string_view table, std::string_view key) {
+  for (std::size_t k = 0; k < std::size(keys); ++k) {
+    if (keys[k].table == table && keys[k].key == key) return k;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> split_names(std::string_view joined) {
+  std::vector<std::string_view> names;
+  while (true) {
+    const std::size_t bar = joined.find('|');
+    std::string_view name = joined.substr(0, bar);
+    while (name.starts_with(' ')) name.remove_prefix(1);
+    while (name.ends_with(' ')) name.remove_suffix(1);
+    names.push_back(name);
+    if (bar == std::string_view::npos) return names;
+    joined.remove_prefix(bar + 1);
+  }
+}
+
+std::string describe(const Range& range) {
+  if (range.zero_excluded) return "different from 0";
+  const bool low = range.low > -unlimited;
+  const bool high = range.high < unlimited;
+  if (low && high && range.low_excluded) {
+    return fmt::format("greater than {} and {} {}", range.low, range.high_excluded ? "less than" : "at most",
+                       range.high);
+  }
+  if (low && high) return fmt::format("from {} to {}", range.low, range.high);
+  if (low) return fmt::format("{} {}", range.low_excluded ? "greater than" : "at least", range.low);
+  return "";
+}
+
+std::string describe_value(const KeySpec& spec) {
+  const std::string range = describe(spec.range);
+  const std::string in_range = range.empty() ? "" : " " + range;
+  switch (spec.type) {
+    case ValueType::text:
+      return "text in quotes";
+    case ValueType::file:
+      return "the path of a file, in quotes";
+    case ValueType::choice: {
+      std::string choices;
+      for (const std::string_view name : split_names(spec.choices))
+        choices += fmt::format(" or \"{}\"", name);
+      return choices.substr(4);
+    }
+    case ValueType::number:
+      return fmt::format("a {}{}, such as {}", dimension_name(spec.dimension), in_range,
+                         quantity_examples(spec.dimension));
+    case ValueType::integer:
+      return fmt::format("a whole number{}", in_range);
+    case ValueType::boolean:
+      return "true or false";
+    case ValueType::counts:
+      return "two whole numbers, such as [66, 8]";
+    case ValueType::indices:
+      return "a list of different whole numbers, such as [12, 40, 71]";
+    case ValueType::points:
+      return "a list of points, such as [[0.005, 0.001]] or [[\"5 mm\", \"1 mm\"]]";
+  }
+  return "";
+}
+
+bool Range::contains(double value) const {
+  const bool above = low_excluded ? value > low : value >= low;
+  const bool below = high_excluded ? value < high : value <= high;
+  return above && below && !(zero_excluded && value == 0.0);
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,11 @@
+#pragma once
+// Settings that a scene may ask for and that this version does not simulate yet.
+
+#include "harness/scene/values.h"
+
+namespace ddem::harness {
+
+/// Adds a violation "not built yet" for each of them that the scene asks for.
+void reject_not_built(Values& values);
+
+}  // namespace ddem::harness

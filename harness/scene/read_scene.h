@@ -1,0 +1,28 @@
+#pragma once
+// Reading scene files.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "harness/scene/check_scene.h"
+#include "harness/scene/scene.h"
+#include "harness/scene/violation.h"
+
+namespace ddem::harness {
+
+struct ReadOptions {
+  Purpose purpose = Purpose::simulation;
+};
+
+using SceneResult = Checked<Scene>;
+
+/// Reads a scene file. Files that it names are looked for in its folder. Every problem of the file is listed,
+/// in the order of its lines; a file that is no TOML has one. Does not throw on any input.
+SceneResult read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The same for a text; `name` stands for the file in messages.
+SceneResult parse_scene(std::string_view text, const std::string& name,
+                        const std::filesystem::path& base_folder, const ReadOptions& options = {});
+
+}  // namespace ddem::harness

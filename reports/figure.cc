@@ -1,0 +1,78 @@
+#include "reports/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "reports/axis.h"
+
+namespace ddem::reports {
+namespace {
+
+class Checker {
+ public:
+  explicit Checker(const Figure& figure) : figure_(figure) {}
+
+  void operator()(const Plot& plot) const {
+    check_axis(plot.x, "x axis");
+    check_axis(plot.y, "y axis");
+    for (const Series& s : plot.series) {
+      check_length("series", s.name, "y", s.y.size(), s.x.size());
+      if (!s.error.empty()) check_length("series", s.name, "error", s.error.size(), s.x.size());
+    }
+    for (const Band& b : plot.bands) {
+      check_length("band", b.name, "lower", b.lower.size(), b.x.size());
+      check_length("band", b.name, "upper", b.upper.size(), b.x.size());
+    }
+  }
+
+  void operator()(const Strip& strip) const {
+    const std::size_t n = strip.x.size();
+    check_length("strip", strip.title, "y", strip.y.size(), n);
+    check_length("strip", strip.title, "radius", strip.radius.size(), n);
+    if (!strip.value.empty()) check_length("strip", strip.title, "value", strip.value.size(), n);
+    if (strip.value_axis.scale != Scale::linear) fail("the colour bar of a strip is linear");
+    check_axis(strip.value_axis, "colour bar");
+    for (std::size_t i = 0; i < n; ++i)
+      if (!std::isfinite(strip.x[i]) || !std::isfinite(strip.y[i]) || !std::isfinite(strip.radius[i]) ||
+          strip.radius[i] <= 0.0)
+        fail(fmt::format("disc {} has centre ({}, {}) and radius {}", i, strip.x[i], strip.y[i],
+                         strip.radius[i]));
+    for (const Probe& p : strip.probes)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y))
+        fail(fmt::format("probe '{}' is at ({}, {})", p.label, p.x, p.y));
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw std::invalid_argument(fmt::format("figure '{}': {}", figure_.id, problem));
+  }
+
+  void check_length(std::string_view kind, std::string_view name, std::string_view what, std::size_t actual,
+                    std::size_t expected) const {
+    if (actual == expected) return;
+    fail(fmt::format("{} '{}' has {} values of {} for {} of x", kind, name, actual, what, expected));
+  }
+
+  void check_axis(const Axis& axis, std::string_view which) const {
+    if (!axis.limits) return;
+    const auto [lower, upper] = *axis.limits;
+    // Closer than that, ticks could not be told apart in double precision.
+    const bool apart = upper - lower > 1e-12 * std::max(std::abs(lower), std::abs(upper));
+    if (!drawable(lower, axis.scale) || !drawable(upper, axis.scale) || !apart || upper - lower < 1e-290)
+      fail(fmt::format("{} has the limits {} .. {}; lower < upper{}, and finite, is needed", which, lower,
+                       upper, axis.scale == Scale::log ? ", both positive" : ""));
+  }
+
+  const Figure& figure_;
+};
+
+}  // namespace
+
+void require_valid(const Figure& figure) {
+  for (const Panel& panel : figure.panels) std::visit(Checker(figure), panel);
+}
+
+}  // namespace ddem::reports

@@ -1,0 +1,111 @@
+#include <set>
+#include <string>
+
+#include "reports/html_assets.h"
+#include "reports/html_parts.h"
+#include "reports/report.h"
+#include "reports/text.h"
+
+namespace ddem::reports {
+namespace {
+
+/// Ids of the page; the second figure "nu" becomes "nu-2".
+class Anchors {
+ public:
+  std::string make(std::string_view text) {
+    const std::string base = slug(text);
+    std::string id = base;
+    for (int n = 2; !used_.insert(id).second; ++n) id = base + "-" + std::to_string(n);
+    return id;
+  }
+
+ private:
+  std::set<std::string> used_ = {"verdicts", "provenance"};
+};
+
+void append_head(Markup& out, const Report& report) {
+  out.open("head").newline();
+  out.empty("meta", {{"charset", "utf-8"}});
+  out.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  // Without an icon of its own a page from a server asks for one.
+  out.empty("link", {{"rel", "icon"}, {"href", "data:,"}});
+  out.element("title", {}, report.title.empty() ? "Report" : report.title);
+  out.open("style").raw(kStyleSheet).close().newline();
+  out.close().newline();
+}
+
+void append_headlines(Markup& out, const Report& report) {
+  if (report.headlines.empty()) return;
+  out.open("dl", {{"class", "tiles"}});
+  for (const Headline& h : report.headlines) {
+    out.open("div").element("dt", {}, h.label).element("dd", {{"class", "value"}}, h.value);
+    if (!h.note.empty()) out.element("dd", {{"class", "small"}}, h.note);
+    out.close();
+  }
+  out.close().newline();
+}
+
+void append_contents(Markup& out, const Report& report, const std::vector<std::string>& section_ids) {
+  const auto entry = [&](const std::string& id, std::string_view text) {
+    out.open("li").element("a", {{"href", "#" + id}}, text).close();
+  };
+  if (report.sections.empty() && report.verdicts.empty() && report.provenance.empty()) return;
+  out.open("nav", {{"aria-label", "Contents"}}).open("ul");
+  if (!report.verdicts.empty()) entry("verdicts", "Verdicts");
+  for (std::size_t i = 0; i < section_ids.size(); ++i) entry(section_ids[i], report.sections[i].heading);
+  if (!report.provenance.empty()) entry("provenance", "Provenance");
+  out.close().close().newline();
+}
+
+void append_provenance(Markup& out, const Report& report) {
+  if (report.provenance.empty()) return;
+  out.open("section", {{"id", "provenance"}}).element("h2", {}, "Provenance");
+  out.open("dl", {{"class", "provenance"}});
+  for (const auto& [key, value] : report.provenance) out.element("dt", {}, key).element("dd", {}, value);
+  out.close().close().newline();
+}
+
+std::string render(const Report& report, const Detail& detail) {
+  Anchors anchors;
+  std::vector<std::string> section_ids;
+  for (const Section& s : report.sections) section_ids.push_back(anchors.make("section-" + s.heading));
+
+  Markup out;
+  out.raw("<!DOCTYPE html>\n").open("html", {{"lang", "en"}}).newline();
+  append_head(out, report);
+  out.open("body").newline().open("header").element("h1", {}, report.title.empty() ? "Report" : report.title);
+  for (const std::string& line : report.summary) out.element("p", {}, line);
+  append_headlines(out, report);
+  append_contents(out, report, section_ids);
+  out.close().newline().open("main").newline();
+  append_verdicts(out, report.verdicts);
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    const Section& section = report.sections[i];
+    out.open("section", {{"id", section_ids[i]}}).element("h2", {}, section.heading).newline();
+    for (const std::string& paragraph : section.paragraphs) out.element("p", {}, paragraph).newline();
+    for (const Figure& figure : section.figures)
+      append_figure(out, figure, anchors.make("figure-" + figure.id), detail);
+    for (const Table& table : section.tables) append_table(out, table);
+    out.close().newline();
+  }
+  append_provenance(out, report);
+  out.close().newline().open("script").raw(kScript).close().newline();
+  out.close().close().newline();
+  return out.take();
+}
+
+}  // namespace
+
+std::string render_html(const Report& report) {
+  constexpr Detail levels[] = {{.csv_rows = 4000, .table_rows = 60, .narrow_drawings = true},
+                               {.csv_rows = 800, .table_rows = 20, .narrow_drawings = true},
+                               {.csv_rows = 200, .table_rows = 10, .narrow_drawings = false}};
+  std::string html;
+  for (const Detail& detail : levels) {
+    html = render(report, detail);
+    if (html.size() < kReportSizeLimit) break;
+  }
+  return html;
+}
+
+}  // namespace ddem::reports

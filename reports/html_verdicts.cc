@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/html_parts.h"
+#include "reports/number.h"
+
+namespace ddem::reports {
+namespace {
+
+std::string_view css_class(State state) {
+  if (is_pass(state)) return "pass";
+  if (state == State::skipped || state == State::no_baseline) return "skip";
+  return state == State::error ? "error" : "fail";
+}
+
+std::string_view symbol(State state) {
+  if (is_pass(state)) return "✓";
+  return state == State::skipped || state == State::no_baseline ? "–" : "✗";
+}
+
+void append_badge(Markup& out, State state) {
+  out.open("span", {{"class", fmt::format("badge {}", css_class(state))}});
+  out.element("span", {{"aria-hidden", "true"}}, fmt::format("{} ", symbol(state)))
+      .text(to_string(state))
+      .close();
+}
+
+// Where the actual value is between its bounds, at a glance. The numbers are beside it.
+void append_gauge(Markup& out, const Criterion& c) {
+  const double span = c.upper - c.lower;
+  if (!std::isfinite(c.lower) || !std::isfinite(c.upper) || !std::isfinite(span) || !(span > 0.0)) return;
+  constexpr double width = 96.0, band_left = 24.0, band = 48.0;
+  const auto pixel = [&](double v) {
+    return band_left + band * std::clamp((v - c.lower) / span, -0.42, 1.42);
+  };
+  out.open("svg", {{"class", "gauge"},
+                   {"viewBox", "0 0 96 16"},
+                   {"width", width},
+                   {"height", 16.0},
+                   {"aria-hidden", "true"}});
+  out.empty("line", {{"x1", 0.0}, {"x2", width}, {"y1", 8.0}, {"y2", 8.0}, {"stroke", "#b8bfc7"}});
+  out.empty("rect", {{"x", band_left}, {"y", 4.0}, {"width", band}, {"height", 8.0}, {"fill", "#cfe3f1"}});
+  if (std::isfinite(c.target))
+    out.empty(
+        "line",
+        {{"x1", pixel(c.target)}, {"x2", pixel(c.target)}, {"y1", 2.0}, {"y2", 14.0}, {"stroke", "#333"}});
+  if (std::isfinite(c.actual))
+    out.empty("circle", {{"cx", pixel(c.actual)},
+                         {"cy", 8.0},
+                         {"r", 3.6},
+                         {"stroke", "#fff"},
+                         {"fill", is_failure(c.state) ? "#b3261e" : "#0072b2"}});
+  out.close();
+}
+
+void append_criteria(Markup& out, const Verdict& verdict) {
+  open_scroll_box(out, "Criteria of " + verdict.case_id);
+  out.open("table").open("thead").open("tr");
+  for (const std::string_view heading : {"Metric", "State"}) out.element("th", {{"scope", "col"}}, heading);
+  for (const std::string_view heading : {"Actual", "Target"})
+    out.element("th", {{"scope", "col"}, {"class", "n"}}, heading);
+  for (const std::string_view heading : {"Accepted", "Derivation"})
+    out.element("th", {{"scope", "col"}}, heading);
+  out.close().close().newline().open("tbody");
+  for (const Criterion& c : verdict.criteria) {
+    const auto with_unit = [&](double v) {
+      return number_text(v) + (c.unit.empty() || !std::isfinite(v) ? "" : " " + c.unit);
+    };
+    out.open("tr").element("th", {{"scope", "row"}}, c.metric);
+    out.open("td");
+    append_badge(out, c.state);
+    out.close();
+    out.element("td", {{"class", "n"}}, std::isfinite(c.actual) ? with_unit(c.actual) : "not measured");
+    out.element("td", {{"class", "n"}}, with_unit(c.target));
+    out.open("td", {{"class", "accepted"}});
+    append_gauge(out, c);
+    out.text(accepted_text(c)).close();
+    out.element("td", {{"class", "derivation"}}, c.derivation).close().newline();
+  }
+  out.close().close().close().newline();
+}
+
+void append_verdict(Markup& out, const Verdict& v) {
+  // A case that needs attention is open from the start.
+  if (is_failure(v.state))
+    out.open("details", {{"class", "case"}, {"open", "open"}});
+  else
+    out.open("details", {{"class", "case"}});
+  out.open("summary");
+  append_badge(out, v.state);
+  out.text(" ").element("code", {}, v.case_id).text(" ").element("span", {{"class", "title"}}, v.title);
+  out.close().open("div", {{"class", "body"}});
+  if (!v.reason.empty()) out.element("p", {}, v.reason);
+  if (!v.criteria.empty()) append_criteria(out, v);
+  if (!v.reproduce.empty())
+    out.open("p", {{"class", "reproduce"}}).text("Reproduce: ").element("code", {}, v.reproduce).close();
+  out.close().close().newline();
+}
+
+std::vector<const Verdict*> of_state(const std::vector<const Verdict*>& sorted, State state) {
+  std::vector<const Verdict*> chosen;
+  std::copy_if(sorted.begin(), sorted.end(), std::back_inserter(chosen),
+               [&](const Verdict* v) { return v->state == state; });
+  return chosen;
+}
+
+void append_filter(Markup& out, const std::vector<const Verdict*>& sorted) {
+  out.open("div", {{"class", "filter"}, {"role", "group"}, {"aria-label", "Show cases by state"}});
+  out.element("button", {{"type", "button"}, {"data-show", ""}, {"aria-pressed", "true"}},
+              fmt::format("All {}", sorted.size()));
+  for (const State state : kStatesWorstFirst)
+    if (const std::size_t n = of_state(sorted, state).size(); n > 0)
+      out.element("button", {{"type", "button"}, {"data-show", to_string(state)}, {"aria-pressed", "false"}},
+                  fmt::format("{} {}", to_string(state), n));
+  out.close().newline();
+}
+
+// Shares of passed, skipped and failed cases as a bar.
+void append_bar(Markup& out, const std::vector<const Verdict*>& sorted) {
+  out.open("div", {{"class", "bar"}, {"aria-hidden", "true"}});
+  for (const State state : kStatesWorstFirst)
+    if (const std::size_t n = of_state(sorted, state).size(); n > 0)
+      out.element("span", {{"class", css_class(state)}, {"style", fmt::format("flex-grow:{}", n)}}, "");
+  out.close().newline();
+}
+
+}  // namespace
+
+void append_verdicts(Markup& out, const std::vector<Verdict>& verdicts) {
+  if (verdicts.empty()) return;
+  const std::vector<const Verdict*> sorted = worst_first(verdicts);
+  const bool all =
+      std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return is_pass(v.state); });
+  const bool failed =
+      std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return is_failure(v.state); });
+  out.open("section", {{"id", "verdicts"}, {"class", "verdicts"}}).element("h2", {}, "Verdicts").newline();
+  out.element("p",
+              {{"class", all      ? "headcount pass"
+                         : failed ? "headcount fail"
+                                  : "headcount skip"}},
+              headcount(verdicts))
+      .newline();
+  append_bar(out, sorted);
+  append_filter(out, sorted);
+  for (const State state : kStatesWorstFirst) {
+    const std::vector<const Verdict*> cases = of_state(sorted, state);
+    if (cases.empty()) continue;
+    const std::string_view name = to_string(state);
+    if (is_pass(state))
+      out.open("details", {{"class", "group"}, {"data-state", name}});
+    else
+      out.open("details", {{"class", "group"}, {"data-state", name}, {"open", "open"}});
+    out.element("summary", {},
+                fmt::format("{}: {} {}", name, cases.size(), cases.size() == 1 ? "case" : "cases"));
+    out.newline();
+    for (const Verdict* v : cases) append_verdict(out, *v);
+    out.close().newline();
+  }
+  out.close().newline();
+}
+
+}  // namespace ddem::reports

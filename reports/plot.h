@@ -1,0 +1,21 @@
+#pragma once
+// Draws one plot: axes, bands, reference lines, series and picks.
+
+#include "reports/figure.h"
+#include "reports/geometry.h"
+#include "reports/legend.h"
+#include "reports/markup.h"
+
+namespace ddem::reports {
+
+/// Room that the tick labels of the y axis need left of a plot of this height.
+double left_margin(const Plot& plot, double height);
+
+/// `frame` is the room for everything; the plot area is inside it, right of `margin`. The drawing is well
+/// inside the plot area: nothing of the data is ever drawn outside it.
+void draw_plot(Markup& out, const Plot& plot, const StyleBook& styles, const Rect& frame, double margin);
+
+/// Text in the drawing's dark grey with a white halo, to be legible on top of lines.
+void draw_halo_text(Markup& out, Point at, std::string_view anchor, std::string_view text);
+
+}  // namespace ddem::reports

@@ -1,0 +1,50 @@
+#pragma once
+// A report, as plain data, and its rendering to one self-contained HTML file.
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/figure.h"
+#include "reports/svg.h"
+#include "reports/table.h"
+#include "reports/verdict.h"
+
+namespace ddem::reports {
+
+/// A number that the reader should take home, written out by whoever computed it: {"ν reached by DDEM",
+/// "0.479"}.
+struct Headline {
+  std::string label = {};
+  std::string value = {};
+  std::string note = {};  ///< small print, e.g. the reference beside it
+};
+
+struct Section {
+  std::string heading = {};
+  std::vector<std::string> paragraphs = {};
+  std::vector<Figure> figures = {};
+  std::vector<Table> tables = {};
+};
+
+struct Report {
+  std::string title = {};
+  std::vector<std::string> summary = {};  ///< paragraphs below the title
+  std::vector<Headline> headlines = {};
+  std::vector<Verdict> verdicts = {};  ///< in any order
+  std::vector<Section> sections = {};
+  std::vector<std::pair<std::string, std::string>> provenance =
+      {};  ///< version, compiler, machine, seeds, ...
+};
+
+constexpr std::size_t kReportSizeLimit = 5'000'000;  ///< bytes
+
+/// One HTML5 file (well-formed as XML too) that needs no network. The same report gives the same bytes. If it
+/// would exceed kReportSizeLimit, the data behind the figures are thinned (extremes survive; the page says
+/// so), and then the drawings for narrow screens are left out. Throws std::invalid_argument for figures that
+/// require_valid() refuses and for table rows longer than their header, naming them. A report that is too
+/// large even so (thousands of verdicts) is returned as it is.
+std::string render_html(const Report& report);
+
+}  // namespace ddem::reports

@@ -1,0 +1,38 @@
+#pragma once
+// A table, as plain data: cells are text or numbers; numbers are aligned to the right.
+
+#include <concepts>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ddem::reports {
+
+/// Built from text or any number, so that a row is written {"random", 682, 0.165}. Not finite: an en dash.
+struct Cell {
+  std::variant<std::string, double> value = {};
+
+  Cell() = default;
+  Cell(std::string text) : value(std::move(text)) {}
+  Cell(const char* text) : value(std::string(text)) {}
+  template <typename Number>
+  requires(std::integral<Number> || std::floating_point<Number>) Cell(Number number)
+      : value(static_cast<double>(number)) {}
+};
+
+struct Column {
+  std::string heading = {};
+  std::string unit = {};
+  int digits = 6;  ///< significant digits of its numbers
+};
+
+struct Table {
+  std::string caption = {};
+  std::vector<Column> columns = {};
+  /// A row may be shorter than `columns` (the rest is blank); what is longer is an error of the renderer's
+  /// caller.
+  std::vector<std::vector<Cell>> rows = {};
+};
+
+}  // namespace ddem::reports

@@ -1,0 +1,151 @@
+#include "harness/io/hdf5.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "harness/io/atomic_file.h"
+#include "harness/io/errors.h"
+#include "scratch.h"
+
+namespace ddem::harness {
+namespace {
+
+TEST(Hdf5, ReadsBackWhatWasWritten) {
+  const Scratch scratch;
+  std::vector<double> cube(2 * 3 * 4);
+  std::iota(cube.begin(), cube.end(), 0.1);
+  {
+    AtomicFile target(scratch / "r.h5");
+    Hdf5File file = Hdf5File::create(target.temporary_path());
+    Hdf5Group root = file.root();
+    root.set_attribute("version", "0.1.0 \xc2\xb5");
+    root.set_attribute("version", "0.2.0 \xc2\xb5");  // replaced
+    root.set_attribute("scene", std::string(200'000, 's'));
+    root.set_attribute("seed", 42);
+    root.set_attribute("k_n", 1e10);
+    Hdf5Group signals = root.create_group("signals");
+    signals.write("cube", cube, {2, 3, 4}).set_attribute("unit", "m");
+    signals.write("bonds", std::vector<int>{1, -2, 3, 4}, {2, 2});
+    signals.write("names", std::vector<std::string>{"p0_ux", "", "\xc3\xa4"});
+    signals.write("empty", std::vector<double>{});
+    EXPECT_FALSE(std::filesystem::exists(scratch / "r.h5"));
+    file.close();
+    target.commit();
+  }
+  const Hdf5File file = Hdf5File::open(scratch / "r.h5");
+  const Hdf5Group root = file.root();
+  EXPECT_EQ(root.string_attribute("version"), "0.2.0 \xc2\xb5");
+  EXPECT_EQ(root.string_attribute("scene").size(), 200'000U);
+  EXPECT_EQ(root.int_attribute("seed"), 42);
+  EXPECT_EQ(root.double_attribute("k_n"), 1e10);
+  EXPECT_EQ(root.names(), std::vector<std::string>{"signals"});
+  const Hdf5Group signals = root.group("signals");
+  const Hdf5Array<double> back = signals.read_doubles("cube");
+  EXPECT_EQ(back.shape, (std::vector<std::size_t>{2, 3, 4}));
+  EXPECT_EQ(back.values, cube);
+  EXPECT_EQ(signals.dataset("cube").string_attribute("unit"), "m");
+  EXPECT_FALSE(signals.dataset("cube").has_attribute("status"));
+  EXPECT_EQ(signals.read_ints("bonds").values, (std::vector<int>{1, -2, 3, 4}));
+  EXPECT_EQ(signals.read_strings("names"), (std::vector<std::string>{"p0_ux", "", "\xc3\xa4"}));
+  EXPECT_TRUE(signals.read_doubles("empty").values.empty());
+  EXPECT_TRUE(signals.contains("cube"));
+  EXPECT_FALSE(signals.contains("cone"));
+}
+
+TEST(Hdf5, LargeArraysAreCompressedAndExact) {
+  const Scratch scratch;
+  std::vector<double> rows(3 * 200'000);
+  for (std::size_t n = 0; n < rows.size(); ++n) rows[n] = std::sin(1e-3 * static_cast<double>(n / 1000));
+  const std::vector<std::size_t> shapes[] = {{rows.size()}, {3, 200'000}, {200'000, 3}, {2, 3, 100'000}};
+  for (const std::vector<std::size_t>& shape : shapes) {
+    Hdf5File file = Hdf5File::create(scratch / "big.h5");
+    file.root().write("rows", rows, shape);
+    file.close();
+    EXPECT_LT(std::filesystem::file_size(scratch / "big.h5"), rows.size() * sizeof(double) / 4);
+    const Hdf5Array<double> back = Hdf5File::open(scratch / "big.h5").root().read_doubles("rows");
+    EXPECT_EQ(back.shape, shape);
+    EXPECT_EQ(back.values, rows);
+  }
+}
+
+TEST(Hdf5, NonFiniteNumbersHaveAStatusBesideThem) {
+  const Scratch scratch;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Hdf5File file = Hdf5File::create(scratch / "n.h5");
+  Hdf5Group root = file.root();
+  EXPECT_THROW(root.set_attribute("speed", nan), std::invalid_argument);
+  const Hdf5Dataset diverged = root.write("u", std::vector<double>{0.0, 1.0, nan, nan});
+  EXPECT_EQ(diverged.string_attribute("status"), "holds numbers that are not finite, first at flat index 2");
+}
+
+TEST(Hdf5, WrongUse) {
+  const Scratch scratch;
+  Hdf5File file = Hdf5File::create(scratch / "w.h5");
+  Hdf5Group root = file.root();
+  const std::vector<double> four(4, 1.0);
+  EXPECT_THROW(root.write("u", four, {3}), std::invalid_argument);
+  EXPECT_THROW(root.write("u", four, {1, 1, 2, 2}), std::invalid_argument);
+  EXPECT_THROW(root.set_attribute("text", std::string("a\0b", 3)), std::invalid_argument);
+  root.write("u", four);
+  const std::string twice = message_of<MachineError>([&] { root.write("u", four); });
+  EXPECT_NE(twice.find("w.h5:/u"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("exist"), std::string::npos) << twice;  // HDF5's own reason
+  file.close();
+  EXPECT_THROW(file.root(), InputError);
+  EXPECT_NO_THROW(file.close());
+}
+
+TEST(Hdf5, ReadingFailuresNameThePlaceAndPrintNothing) {
+  const Scratch scratch;
+  put(scratch / "text.h5", "time,ux\n");
+  {
+    Hdf5File file = Hdf5File::create(scratch / "good.h5");
+    file.root().write("names", std::vector<std::string>{"a"});
+    file.root().set_attribute("seed", 1);
+  }
+  testing::internal::CaptureStderr();
+  EXPECT_THROW(Hdf5File::open(scratch / "missing.h5"), InputError);
+  EXPECT_THROW(Hdf5File::open(scratch / "text.h5"), InputError);
+  EXPECT_THROW(Hdf5File::create(scratch / "no/such.h5"), MachineError);
+  const Hdf5File file = Hdf5File::open(scratch / "good.h5");
+  const Hdf5Group root = file.root();
+  const std::string missing = message_of<InputError>([&] { root.read_doubles("u"); });
+  EXPECT_NE(missing.find("good.h5:/u: no such dataset"), std::string::npos) << missing;
+  EXPECT_THROW(root.read_doubles("names"), InputError);
+  EXPECT_THROW(root.read_ints("names"), InputError);
+  EXPECT_THROW(root.group("signals"), InputError);
+  EXPECT_THROW(root.string_attribute("seed"), InputError);
+  EXPECT_THROW(root.int_attribute("weed"), InputError);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Hdf5, TruncatedFilesAreRefused) {
+  const Scratch scratch;
+  {
+    Hdf5File file = Hdf5File::create(scratch / "whole.h5");
+    file.root().write("u", std::vector<double>(1000, 1.5));
+  }
+  const std::string whole = content_of(scratch / "whole.h5");
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    put(scratch / "cut.h5", whole.substr(0, size));
+    EXPECT_THROW(Hdf5File::open(scratch / "cut.h5").root().read_doubles("u"), InputError) << size;
+  }
+}
+
+TEST(Hdf5, FullDiskIsTheMachinesFailure) {
+  // HDF5 opens the device and fails at its first write, which is at the latest when the file is flushed.
+  EXPECT_THROW(
+      {
+        Hdf5File file = Hdf5File::create("/dev/full");
+        file.close();
+      },
+      MachineError);
+}
+
+}  // namespace
+}  // namespace ddem::harness

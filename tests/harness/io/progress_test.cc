@@ -1,0 +1,89 @@
+#include "harness/io/progress.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace ddem::harness {
+namespace {
+
+using std::chrono::seconds;
+
+TEST(ProgressLine, FractionAndTimeLeft) {
+  EXPECT_EQ(progress_line(10, 20, seconds(80), "shear"),
+            "[##########..........]  50 % 10/20 shear, 1 min 20 s left");
+  EXPECT_EQ(progress_line(1, 4, seconds(5), ""), "[#####...............]  25 % 1/4, 15 s left");
+  EXPECT_EQ(progress_line(1, 3, seconds(3600), ""), "[######..............]  33 % 1/3, 2 h 0 min left");
+  // Nothing is known before the first unit, and nothing is left after the last.
+  EXPECT_EQ(progress_line(0, 3, seconds(5), ""), "[....................]   0 % 0/3");
+  EXPECT_EQ(progress_line(3, 3, seconds(5), ""), "[####################] 100 % 3/3");
+  EXPECT_EQ(progress_line(9, 3, seconds(5), ""), "[####################] 100 % 3/3");
+  EXPECT_EQ(progress_line(0, 0, seconds(5), ""), "[####################] 100 % 0/0");
+}
+
+/// Both ends of a pseudo-terminal; what is written to `terminal` is read from `screen`.
+struct PseudoTerminal {
+  int screen = ::posix_openpt(O_RDWR | O_NOCTTY), terminal = -1;
+
+  PseudoTerminal() {
+    if (screen < 0 || ::grantpt(screen) != 0 || ::unlockpt(screen) != 0) return;
+    terminal = ::open(::ptsname(screen), O_RDWR | O_NOCTTY);
+    ::fcntl(screen, F_SETFL, O_NONBLOCK);
+  }
+  ~PseudoTerminal() {
+    ::close(terminal);
+    ::close(screen);
+  }
+  std::string shown() const {
+    char text[1 << 16];
+    const ssize_t count = ::read(screen, text, sizeof text);
+    return {text, static_cast<std::size_t>(std::max<ssize_t>(count, 0))};
+  }
+};
+
+TEST(Progress, DrawsOnATerminalNotTooOftenFromAnyThread) {
+  const PseudoTerminal pty;
+  if (pty.terminal < 0) GTEST_SKIP() << "no pseudo-terminals here";
+  constexpr int workers = 4, each = 5000;
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress(workers * each, "cases", pty.terminal);
+    std::vector<std::thread> threads;
+    for (int w = 0; w < workers; ++w)
+      threads.emplace_back([&] {
+        for (int n = 0; n < each; ++n) progress.advance();
+      });
+    for (std::thread& thread : threads) thread.join();
+  }
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string shown = pty.shown();
+  EXPECT_NE(shown.find("100 % 20000/20000 cases"), std::string::npos) << shown;
+  EXPECT_EQ(shown.substr(shown.size() - 4), "\r\033[K");  // wiped in the end
+  // The first, the last, ten a second, and the wipe.
+  const auto drawn = std::count(shown.begin(), shown.end(), '\r');
+  EXPECT_LE(static_cast<double>(drawn), 3.0 + 10.0 * elapsed);
+}
+
+TEST(Progress, SaysNothingElsewhere) {
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_NONBLOCK), 0);
+  {
+    Progress progress(3, "cases", ends[1]);
+    progress.advance(2);
+    progress.set_label("more");
+    progress.advance();
+  }
+  char byte;
+  EXPECT_EQ(::read(ends[0], &byte, 1), -1);  // nothing there
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+}  // namespace
+}  // namespace ddem::harness
