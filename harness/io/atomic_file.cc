@@ -36,7 +36,7 @@ fs::path resolved(const fs::path& target) {
   std::error_code ignored;
   if (!fs::is_symlink(target, ignored)) return target;
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(target, error);
+  fs::path real = fs::weakly_canonical(target, error);
   if (error) throw machine_error(target.string(), "cannot follow the symbolic link", error.value());
   return real;
 }

@@ -114,7 +114,7 @@ std::string Hdf5Node::string_attribute(const std::string& name) const {
   char* pointer = nullptr;
   const Hdf5Handle type = hdf5_detail::string_type();
   read_attribute(name, type.get(), H5T_STRING, &pointer);
-  const std::string text(pointer == nullptr ? "" : pointer);
+  std::string text(pointer == nullptr ? "" : pointer);
   H5free_memory(pointer);
   return text;
 }
@@ -156,7 +156,12 @@ std::vector<std::string> Hdf5Group::names() const {
 namespace {
 
 /// Closing the file closes all that is open in it, so that nothing keeps a committed file half written.
+/// Every use of HDF5 starts here, hence also: no clean-up at exit. After a write that the disk refused,
+/// HDF5 1.10 keeps the half-closed file, and its exit handler crashes on it: exit code 4 would become a
+/// segmentation fault. Handles close themselves, so nothing is left for that handler to do. It must be the
+/// first call of all.
 Hdf5Handle access_properties() {
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(properties.get(), H5F_CLOSE_STRONG);

@@ -152,7 +152,7 @@ Pick pick_centroid(const Signal& signal, const Window& window, double half_width
                    const PickOptions& options) {
   if (!(half_width > 0.0) || !std::isfinite(half_width))
     throw std::invalid_argument("the half width of a centroid window must be positive");
-  const Pick peak = pick_peak(signal, window, options);
+  Pick peak = pick_peak(signal, window, options);
   if (!peak.ok()) return peak;
 
   const double centre = (peak.value().time - signal.t0) / signal.dt;  // in samples

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 #include <cmath>
+#include <future>
+#include <map>
+#include <mutex>
 #include <string>
+#include <tuple>
 
 #include "dem/assembly/contacts.h"
 #include "dem/assembly/packing_check.h"
@@ -36,12 +40,34 @@ auto naming_scene(const Scene& scene, const std::string& table, F&& f) {
   }
 }
 
+/// Jamming takes a thousand times as long as a wave run of the packing, and a campaign runs many waves in one packing:
+/// each is made once in a process. Threads that ask for the same packing wait for the one that makes it.
 Packing random_packing(const RandomPacking& p) {
-  return packings::random_jammed({.length = p.length,
-                                  .width = p.width,
-                                  .discs = static_cast<int>(p.discs),
-                                  .seed = static_cast<std::uint64_t>(p.seed),
-                                  .radius_ratio = p.radius_ratio});
+  using Key = std::tuple<double, double, std::int64_t, std::int64_t, double>;
+  static std::mutex mutex;
+  static std::map<Key, std::shared_future<Packing>> made;
+  std::promise<Packing> promise;
+  std::shared_future<Packing> packing;
+  bool make = false;
+  {
+    const std::lock_guard lock(mutex);
+    auto [entry, absent] = made.try_emplace(Key{p.length, p.width, p.discs, p.seed, p.radius_ratio});
+    make = absent;
+    if (absent) entry->second = promise.get_future().share();
+    packing = entry->second;
+  }
+  if (make) {
+    try {
+      promise.set_value(packings::random_jammed({.length = p.length,
+                                                 .width = p.width,
+                                                 .discs = static_cast<int>(p.discs),
+                                                 .seed = static_cast<std::uint64_t>(p.seed),
+                                                 .radius_ratio = p.radius_ratio}));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return packing.get();
 }
 
 Packing hexagonal_packing(const HexagonalPacking& p, Periodicity periodic) {

@@ -117,4 +117,9 @@ double source_amplitude(const Scene& scene) {
   return 0.0;
 }
 
+double smallest_arrival(const Scene& scene) {
+  const auto* pulse = std::get_if<InitialPulse>(&scene.load);
+  return pulse != nullptr && pulse->shape == PulseShape::column ? 0.01 : 0.05;
+}
+
 }  // namespace ddem::harness

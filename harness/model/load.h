@@ -25,5 +25,9 @@ double source_duration(const Scene& scene);
 /// Where the source's maximum is at time 0, m from the left end (the centre of a gaussian; else 0).
 double source_centre(const Scene& scene);
 double source_amplitude(const Scene& scene);
+/// The part of the amplitude that must arrive for a peak to be believed. A released column is a few discs only, whose
+/// wave disperses as it travels: the cube root of the distance on the lattice, a twentieth of the amplitude over the
+/// strip on random packings without shear stiffness.
+double smallest_arrival(const Scene& scene);
 
 }  // namespace ddem::harness

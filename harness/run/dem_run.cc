@@ -60,6 +60,7 @@ WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave,
   c.source_centre = source_centre(scene);
   c.source_duration = source_duration(scene);
   c.source_amplitude = source_amplitude(scene);
+  c.smallest_arrival = smallest_arrival(scene);
   return c;
 }
 

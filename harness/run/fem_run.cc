@@ -136,15 +136,15 @@ std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::functi
 ContinuumMaterial continuum_material(const Scene& scene, const std::optional<SceneModuli>& moduli, Wave wave) {
   ContinuumMaterial m;
   if (moduli) {
-    const auto speed = moduli->speed_of(wave);
+    const auto speed = moduli->speed_of(wave, scene.assembly.periodic.y);
     const auto isotropic = moduli->isotropic();
     if (!speed || (!isotropic && !moduli->strip)) {
       throw InputError(scene.path.string() + ": [continuum]: the static moduli of this packing do not give the material of "
                                               "this wave; give young_modulus, poisson_ratio and density");
     }
-    const bool bar = wave == Wave::longitudinal && moduli->strip;
+    const bool bar = wave == Wave::longitudinal && !scene.assembly.periodic.y;
     m.density = moduli->bulk_density;
-    m.poisson_ratio = bar ? moduli->strip->lateral_contraction : isotropic->poisson();
+    m.poisson_ratio = bar && moduli->strip ? moduli->strip->lateral_contraction : isotropic.value().poisson();
     // E such that the wave in question has the static speed of the very assembly.
     const double nu = m.poisson_ratio, modulus = *speed * *speed * m.density;
     m.young_modulus = bar ? modulus : wave == Wave::shear ? 2.0 * (1.0 + nu) * modulus : (1.0 - nu * nu) * modulus;

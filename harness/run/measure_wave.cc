@@ -24,8 +24,8 @@ WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, do
                              const ProbeLayout& layout, const WaveContext& context) {
   std::vector<ProbePick> picks;
   PickOptions options;
-  // A released pulse splits in two, and a column disperses: half of the source, of which a tenth must arrive.
-  options.expected_amplitude = 0.5 * context.source_amplitude;
+  options.expected_amplitude = context.source_amplitude;
+  options.detection_fraction = context.smallest_arrival;
   for (int p = 0; p < static_cast<int>(layout.probes.size()); ++p) {
     const Signal signal{signals[p], dt, 0.0};
     Window window = causal_window(context, layout.probes[p].x);

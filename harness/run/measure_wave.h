@@ -19,6 +19,7 @@ struct WaveContext {
   double source_centre = 0.0;    ///< where the source's maximum starts, m from the left end
   double source_duration = 0.0;  ///< of a driven edge, s
   double source_amplitude = 0.0; ///< m
+  double smallest_arrival = 0.05; ///< of the amplitude: what is smaller is no arrival
 };
 
 /// [first possible arrival, first arrival of a reflection) at a probe.

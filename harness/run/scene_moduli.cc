@@ -42,11 +42,12 @@ std::optional<DirectionalSpeeds> SceneModuli::speeds() const {
   return s;
 }
 
-std::optional<double> SceneModuli::speed_of(Wave wave) const {
-  if (wave == Wave::longitudinal && strip) return strip->bar_velocity();
+std::optional<double> SceneModuli::speed_of(Wave wave, bool periodic) const {
+  const bool bar = wave == Wave::longitudinal && !periodic;
+  if (bar && strip) return strip->bar_velocity();
   const auto s = speeds();
   if (!s) return std::nullopt;
-  return wave == Wave::shear ? s->s : s->p;
+  return wave == Wave::shear ? s->s : periodic ? s->p : s->bar;
 }
 
 SceneModuli scene_moduli(const Scene& scene) {

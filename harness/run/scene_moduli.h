@@ -21,8 +21,8 @@ struct SceneModuli {
 
   std::optional<IsotropicModuli> isotropic() const;
   std::optional<DirectionalSpeeds> speeds() const;  ///< bar from the pulled strip, where there is one
-  /// The static speed of a wave along x between the scene's edges: shear, bar (free) or P (periodic).
-  std::optional<double> speed_of(Wave wave) const;
+  /// The static speed of a wave along x: shear; longitudinal between periodic edges (P) or free ones (bar).
+  std::optional<double> speed_of(Wave wave, bool periodic) const;
 };
 
 /// Throws InputError (scene), SolverError (no static equilibrium).

@@ -1,8 +1,11 @@
 #include "harness/io/hdf5.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <numeric>
@@ -137,14 +140,36 @@ TEST(Hdf5, TruncatedFilesAreRefused) {
   }
 }
 
-TEST(Hdf5, FullDiskIsTheMachinesFailure) {
-  // HDF5 opens the device and fails at its first write, which is at the latest when the file is flushed.
-  EXPECT_THROW(
-      {
-        Hdf5File file = Hdf5File::create("/dev/full");
-        file.close();
-      },
-      MachineError);
+/// Writes 800 kB where files may grow to `limit` bytes, and leaves with the exit code of what happens: the
+/// way of the program, through std::exit and its handlers.
+[[noreturn]] void write_and_exit(const std::filesystem::path& path, rlim_t limit) {
+  ::signal(SIGXFSZ, SIG_IGN);  // write() then fails with EFBIG, as it does with ENOSPC
+  const rlimit size{limit, limit};
+  ::setrlimit(RLIMIT_FSIZE, &size);
+  try {
+    AtomicFile target(path);
+    Hdf5File file = Hdf5File::create(target.temporary_path());
+    std::vector<double> incompressible(100'000);
+    for (std::size_t n = 0; n < incompressible.size(); ++n)
+      incompressible[n] = std::sin(1e6 * static_cast<double>(n));
+    file.root().write("u", incompressible);
+    file.close();
+    target.commit();
+  } catch (const std::exception& error) {
+    const std::string text = error.what();
+    [[maybe_unused]] const auto shown = ::write(2, text.data(), text.size());
+    std::exit(static_cast<int>(exit_code_of(error)));
+  }
+  std::exit(0);
+}
+
+TEST(Hdf5, FullDiskIsExitCodeFourAndNoCrash) {
+  // HDF5's own exit handler crashes here (signal 11) if it is left to run.
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // a fresh process: HDF5 must not be in use before
+  const Scratch scratch;
+  EXPECT_EXIT(write_and_exit(scratch / "full.h5", 20'000), testing::ExitedWithCode(4), "cannot");
+  EXPECT_EQ(scratch.entries(), 0);  // neither a target nor a temporary file
+  EXPECT_EXIT(write_and_exit(scratch / "enough.h5", 2'000'000), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
