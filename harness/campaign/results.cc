@@ -32,7 +32,7 @@ Uncertain sample_statistics(const std::vector<double>& values) {
   return {mean, values.size() > 1 ? std::sqrt(squares / static_cast<double>(values.size() - 1)) : 0.0};
 }
 
-bool expected_unstable(const StripCampaign& s, const StripCase& c) {
+bool expected_unstable(const StripCampaign& s, const StripMaterial& c) {
   if (c.model == Model::dem || c.packing != StripPacking::hexagonal) return false;
   const bool normal = c.model == Model::lagged_normal;
   if (normal && c.stiffness_ratio > references::hexagonal_normal_ratio_limit) return true;

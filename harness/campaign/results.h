@@ -71,6 +71,15 @@ struct WaveOutcome {
   Recording recording;
 };
 
+/// The lattice, periodic in x and y, released from noise: does the published scheme hold?
+struct StabilityOutcome {
+  StripMaterial key;
+  std::string failure;
+  bool expected_unstable = false;
+  std::optional<long> diverged_step;
+  long steps = 0;
+};
+
 /// One finite-element run: the continuum with the static moduli of an assembly.
 struct FemOutcome {
   StripMaterial key;
@@ -97,6 +106,7 @@ struct CampaignResults {
   StripCampaign campaign;
   std::vector<StaticOutcome> statics;
   std::vector<WaveOutcome> waves;
+  std::vector<StabilityOutcome> stability;
   std::vector<FemOutcome> fem;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
@@ -112,6 +122,6 @@ Uncertain sample_statistics(const std::vector<double>& values);
 
 /// Whether theory says that the published scheme is unstable there: on the lattice beyond the fixed-point limit, or N
 /// with k_t/k_n above 1/3 (theory section 3); on random packings nothing exact is known.
-bool expected_unstable(const StripCampaign& campaign, const StripCase& c);
+bool expected_unstable(const StripCampaign& campaign, const StripMaterial& key);
 
 }  // namespace ddem::harness

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "dem/spectra/spectra.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
@@ -14,9 +15,6 @@
 
 namespace ddem::harness {
 namespace {
-
-/// The shortest travel in the strip that a diverging lagged run is given to show it.
-constexpr long kStepsToDiverge = 30000;
 
 std::vector<StripMaterial> materials_of(const StripCampaign& s) {
   std::vector<StripMaterial> keys;
@@ -105,7 +103,6 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
   try {
     Scene scene = scene_of(out.scene, id_of(c));
     if (options.disturb_scene) options.disturb_scene(scene);
-    if (expected_unstable(s, c)) scene.time.end = EndSteps{kStepsToDiverge};
     const DemRun run = run_scene(scene, {out.static_speed, {}});
     out.warnings = run.warnings;
     out.time_step = run.time_step;
@@ -133,6 +130,56 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     out.failure = e.what();
   }
   return out;
+}
+
+// The noise run: half the critical step, where the growth of N is fastest, on a patch small enough to be quick.
+constexpr double kNoiseStepFraction = 0.5;
+constexpr long kNoiseSteps = 20000;
+constexpr std::int64_t kNoiseColumns = 20, kNoiseRows = 20;
+
+/// Noise that is the same everywhere: no library's random numbers, whose distributions differ.
+std::vector<double> noise(std::size_t n, std::uint64_t state) {
+  std::vector<double> values(n);
+  for (double& v : values) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    v = 1e-9 * (static_cast<double>(state >> 11) * 0x1.0p-52 - 1.0);
+  }
+  return values;
+}
+
+StabilityOutcome release_noise(const StripCampaign& s, const StripMaterial& key, const CampaignOptions& options) {
+  StabilityOutcome out;
+  out.key = key;
+  out.expected_unstable = expected_unstable(s, key);
+  out.steps = kNoiseSteps;
+  try {
+    StripCampaign small = s;
+    small.columns = kNoiseColumns;
+    small.rows = kNoiseRows;
+    Scene scene = scene_of(assembly_text(small, case_of(key, StripWave::p), true), "noise");
+    if (options.disturb_scene) options.disturb_scene(scene);
+    const ddem::Assembly assembly = build_assembly(scene);
+    SimulationInput in;
+    in.contact = contact_parameters(scene);
+    in.deformation = deformation_parameters(scene);
+    in.initial.ux = noise(assembly.size(), 1);
+    in.initial.uy = noise(assembly.size(), 2);
+    in.time_step = kNoiseStepFraction * 2.0 / largest_frequency(assembly, in.contact, {});
+    in.steps = kNoiseSteps;
+    const SimulationResult result = simulate(assembly, in);
+    if (result.divergence) out.diverged_step = result.divergence->step;
+  } catch (const std::exception& e) {
+    out.failure = e.what();
+  }
+  return out;
+}
+
+std::vector<StripMaterial> lattices_with_strain(const StripCampaign& s) {
+  std::vector<StripMaterial> keys;
+  for (const StripMaterial& key : materials_of(s)) {
+    if (key.packing == StripPacking::hexagonal && key.model != Model::dem) keys.push_back(key);
+  }
+  return keys;
 }
 
 /// The continuum with the static moduli of the first random strip, all models and ratios, and one bar with nu = 0.
@@ -226,7 +273,7 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 }  // namespace
 
 std::size_t campaign_work(const StripCampaign& s, bool with_fem) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + (with_fem ? fem_outcomes(s).size() : 0);
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -244,20 +291,29 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
   });
 
   const auto cases = cases_of(s);
+  const auto lattices = lattices_with_strain(s);
   results.waves.resize(cases.size());
+  results.stability.resize(lattices.size());
   if (options.with_fem) results.fem = fem_outcomes(s);
   const StripCase shown{StripPacking::random, s.seeds.front(), s.models.front(), s.stiffness_ratios.front(), Protocol::paper, StripWave::bar};
-  const std::size_t fem_jobs = options.with_fem ? 1 : 0;  // first: it is the longest job
-  run_jobs(fem_jobs + cases.size(), options.jobs, [&](std::size_t job) {
-    if (job < fem_jobs) {
-      run_all_fem(s, results, options);
-      return;
-    }
-    const StripCase& c = cases[job - fem_jobs];
+  const auto simulate_nth = [&](std::size_t k) {
+    const StripCase& c = cases[k];
     const StaticOutcome* statics = results.find(StripMaterial{c.packing, c.seed, c.model, c.stiffness_ratio});
     StripPicture* picture = id_of(c) == id_of(shown) ? &results.picture : nullptr;
-    results.waves[job - fem_jobs] = simulate_case(s, c, *statics, options, picture);
+    results.waves[k] = simulate_case(s, c, *statics, options, picture);
     progress(1);
+  };
+  // The finite elements first: they are the longest job.
+  const std::size_t fem_jobs = options.with_fem ? 1 : 0;
+  run_jobs(fem_jobs + lattices.size() + cases.size(), options.jobs, [&](std::size_t job) {
+    if (job < fem_jobs) {
+      run_all_fem(s, results, options);
+    } else if (job < fem_jobs + lattices.size()) {
+      results.stability[job - fem_jobs] = release_noise(s, lattices[job - fem_jobs], options);
+      progress(4);
+    } else {
+      simulate_nth(job - fem_jobs - lattices.size());
+    }
   });
   place_probes(s, results.picture);
   results.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

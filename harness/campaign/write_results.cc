@@ -91,6 +91,13 @@ void write_wave(Hdf5Group& parent, const WaveOutcome& w) {
   write_recording(g, w.recording);
 }
 
+void write_stability(Hdf5Group& parent, const StabilityOutcome& o) {
+  Hdf5Group g = parent.create_group(group_name(material_slug(o.key.model, o.key.stiffness_ratio)));
+  g.set_attribute("status", !o.failure.empty() ? o.failure : o.diverged_step ? fmt::format("diverged at step {}", *o.diverged_step) : "stable");
+  g.set_attribute("expected", o.expected_unstable ? "unstable" : "stable");
+  g.set_attribute("steps", static_cast<std::int64_t>(o.steps));
+}
+
 void write_fem(Hdf5Group& parent, const FemOutcome& f) {
   const StripCase c{f.key.packing, f.key.seed, f.key.model, f.key.stiffness_ratio, Protocol::long_wave, f.wave};
   Hdf5Group g = parent.create_group(group_name(id_of(c)) + (f.uniaxial ? ":uniaxial" : ""));
@@ -112,6 +119,8 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
     for (const auto& [key, value] : provenance()) root.set_attribute(key, value);
     Hdf5Group waves = root.create_group("waves");
     for (const WaveOutcome& w : r.waves) write_wave(waves, w);
+    Hdf5Group stability = root.create_group("stability");
+    for (const StabilityOutcome& o : r.stability) write_stability(stability, o);
     Hdf5Group fem = root.create_group("finite_elements");
     for (const FemOutcome& f : r.fem) write_fem(fem, f);
     Hdf5Group strip = root.create_group("strip");

@@ -7,12 +7,12 @@ namespace ddem::harness {
 
 Window causal_window(const WaveContext& c, double x) {
   const double s = x - c.left_end;
-  // Nothing of the pulse's top arrives at twice the expected speed; what comes back from the right end is a reflection.
-  // A pulse released inside the strip comes a second time, from the left end.
-  const double first = std::max(0.0, std::abs(s - c.source_centre) / (2.0 * c.speed));
+  // The top of the pulse travels at more than half and less than twice the expected speed; what comes back from the
+  // right end is a reflection, and a pulse released inside the strip comes a second time, from the left end.
+  const double travel = std::abs(s - c.source_centre) / c.speed;
   const double from_the_right = (2.0 * c.length - s - c.source_centre) / c.speed;
-  const double from_the_left = s / c.speed;
-  return {first, c.source_centre > 0.0 ? std::min(from_the_left, from_the_right) : from_the_right};
+  const double from_the_left = c.source_centre > 0.0 ? s / c.speed : from_the_right;
+  return {0.5 * travel, std::min({2.0 * travel + c.source_duration, from_the_right, from_the_left})};
 }
 
 double time_of_passage(const WaveContext& c, double x, double margin) {

@@ -22,7 +22,7 @@ struct WaveContext {
   double smallest_arrival = 0.05; ///< of the amplitude: what is smaller is no arrival
 };
 
-/// [first possible arrival, first arrival of a reflection) at a probe.
+/// From the first possible arrival to the last, and before the first reflection, at a probe.
 Window causal_window(const WaveContext& context, double x);
 
 /// When the peak has passed x, with a margin of `margin` times the travel time: how long a run must last.
