@@ -33,7 +33,7 @@ std::vector<double> times(const Recording& recording, std::size_t samples) {
 }
 
 reports::Plot velocity_panel(const CampaignResults& r, StripWave wave) {
-  reports::Plot plot{.title = fmt::format("{} wave", name(wave)), .x = {.label = "k_t/k_n"}, .y = {.label = "velocity", .unit = "m/s"}};
+  reports::Plot plot{.title = fmt::format("{} wave", name(wave)), .x = {.label = "kₜ/kₙ"}, .y = {.label = "velocity", .unit = "m/s"}};
   for (const Model model : r.campaign.models) {
     reports::Series measured{.name = name(model), .kind = reports::SeriesKind::markers, .color = color_of(model)};
     reports::Series statics{.name = name(model) + ", static", .color = color_of(model)};
@@ -64,11 +64,12 @@ SpeedPoint random_speed(const CampaignResults& r, Model model, double ratio, Pro
   std::vector<double> measured, statics, kinematic;
   for (const std::int64_t seed : r.campaign.seeds) {
     const WaveOutcome* w = r.find(StripCase{StripPacking::random, seed, model, ratio, protocol, wave});
-    measured.push_back(w != nullptr ? w->speed.value_or(kNone) : kNone);
+    if (w != nullptr && w->speed) measured.push_back(*w->speed);
     statics.push_back(w != nullptr ? w->static_speed : kNone);
     kinematic.push_back(w != nullptr ? w->kinematic_speed : kNone);
   }
-  return {sample_statistics(measured), sample_statistics(statics).value, sample_statistics(kinematic).value};
+  const Uncertain mean = measured.empty() ? Uncertain{kNone, kNone} : sample_statistics(measured);
+  return {mean, sample_statistics(statics).value, sample_statistics(kinematic).value};
 }
 
 PoissonCurve poisson_curve(const CampaignResults& r, Model model) {
@@ -93,8 +94,8 @@ PoissonCurve poisson_curve(const CampaignResults& r, Model model) {
 }
 
 reports::Figure poisson_figure(const CampaignResults& r) {
-  reports::Plot random{.title = "random packings", .x = {.label = "k_t/k_n"}, .y = {.label = "Poisson's ratio"}};
-  reports::Plot lattice{.title = "hexagonal lattice", .x = {.label = "k_t/k_n"}, .y = {.label = "Poisson's ratio"}};
+  reports::Plot random{.title = "random packings", .x = {.label = "kₜ/kₙ"}, .y = {.label = "Poisson's ratio"}};
+  reports::Plot lattice{.title = "hexagonal lattice", .x = {.label = "kₜ/kₙ"}, .y = {.label = "Poisson's ratio"}};
   for (const Model model : r.campaign.models) {
     const PoissonCurve c = poisson_curve(r, model);
     random.series.push_back({.name = name(model), .kind = reports::SeriesKind::markers, .x = c.ratio, .y = c.mean, .error = c.stddev, .color = color_of(model)});
@@ -118,16 +119,16 @@ reports::Figure poisson_figure(const CampaignResults& r) {
     plot->references.push_back({.value = 1.0 / 3.0, .label = "1/3, dense DEM"});
   }
   return {.id = "poisson-ratio",
-          .title = "Poisson's ratio over k_t/k_n",
+          .title = "Poisson's ratio over kₜ/kₙ",
           .caption = "Marks: from P and shear velocities (bars: scatter over seeds). Lines: static moduli of the same packings (left), closed "
-                     "form (right). DDEM lies above DEM everywhere; sparse packings exceed 1/3 even without particle strain. Where the published scheme is unstable on the lattice "
-                     "(N, k_t/k_n above 1/3) there is no mark.",
+                     "form (right). Correcting both overlaps (F) draws ν towards the discs' own νₚ at every kₜ/kₙ; the published correction of the "
+                     "normal overlap alone (N) moves it less. Dense DEM cannot exceed 1/3; packings with fewer bonds a disc do.",
           .panels = {random, lattice}};
 }
 
 reports::Figure velocity_figure(const CampaignResults& r) {
   return {.id = "velocities",
-          .title = "Wave velocities over k_t/k_n, random packings",
+          .title = "Wave velocities over kₜ/kₙ, random packings",
           .caption = "Marks: measured on driven pulses (bars: scatter over seeds). Full lines: static directional speeds of the same packings, for "
                      "the bar of the very strip with its free edges. Dotted: kinematic estimate, which no packing exceeds.",
           .panels = {velocity_panel(r, StripWave::bar), velocity_panel(r, StripWave::shear), velocity_panel(r, StripWave::p)}};
@@ -153,7 +154,7 @@ reports::Figure paper_figure(const CampaignResults& r) {
   const double ratio = shown_ratio(r);
   for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
     const WaveOutcome* w = r.find(StripCase{StripPacking::random, r.campaign.seeds.front(), r.campaign.models.front(), ratio, Protocol::paper, wave});
-    reports::Plot plot{.title = fmt::format("{}, k_t/k_n = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
+    reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
     if (w != nullptr) {
       for (std::size_t p = 0; p < w->recording.signals.size(); ++p) {
         const PickedSignal& s = w->recording.signals[p];
@@ -177,7 +178,7 @@ reports::Figure waveform_figure(const CampaignResults& r) {
                                     "packing. The published scheme damps (its strains lag by a step), so that its pulse is lower."};
   const double ratio = shown_ratio(r);
   for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
-    reports::Plot plot{.title = fmt::format("{}, k_t/k_n = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
+    reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
     for (const Model model : r.campaign.models) {
       const StripMaterial key{StripPacking::random, r.campaign.seeds.front(), model, ratio};
       const WaveOutcome* w = r.find(StripCase{key.packing, key.seed, model, ratio, Protocol::long_wave, wave});

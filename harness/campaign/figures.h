@@ -8,7 +8,7 @@
 
 namespace ddem::harness {
 
-/// Means over the seeds of the random packings. Not-a-number where a seed was not measured.
+/// Means over those seeds of the random packings that gave a velocity; not-a-number where none did.
 struct SpeedPoint {
   Uncertain measured;
   double statics = 0.0, kinematic = 0.0;

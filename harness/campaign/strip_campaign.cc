@@ -61,8 +61,8 @@ std::string load_text(const StripCampaign& s, const StripCase& c, double speed) 
 std::string name(Model model) {
   switch (model) {
     case Model::dem: return "DEM";
-    case Model::lagged_normal: return "DDEM N (lagged)";
-    case Model::lagged_full: return "DDEM F (lagged)";
+    case Model::lagged_normal: return "DDEM N";
+    case Model::lagged_full: return "DDEM F";
   }
   throw std::logic_error("unknown model");
 }

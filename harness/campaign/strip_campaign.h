@@ -37,7 +37,7 @@ struct StripCampaign {
   double density = 2000.0;                ///< of a disc, kg/m3
   double normal_stiffness = 1e10;         ///< N/m
   double particle_modulus = 4e10;         ///< E_p, Pa
-  double particle_poisson_ratio = 0.3;    ///< nu_p
+  double particle_poisson_ratio = 0.45;   ///< nu_p
   double step_fraction = 0.2;             ///< of the critical time step
   double pulse_length = 8e-3;             ///< of the driven pulse in the strip, m (support)
   std::int64_t fem_degree = 4;
@@ -54,7 +54,7 @@ struct StripCase {
   StripWave wave = StripWave::shear;
 };
 
-std::string name(Model model);       ///< "DEM", "DDEM N (lagged)", ...
+std::string name(Model model);       ///< "DEM", "DDEM N", "DDEM F"
 std::string name(StripWave wave);    ///< "bar", "shear", "P"
 std::string material_slug(Model model, double stiffness_ratio);  ///< "lagged-full/kt0.30": the end of a verdict's name
 std::string id_of(const StripCase& c);  ///< "long-wave/random-1/lagged-full/kt0.30/shear"

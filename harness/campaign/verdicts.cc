@@ -113,13 +113,8 @@ Verdict lattice_verdict(const CampaignResults& r, const StaticOutcome& s) {
   return v;
 }
 
-/// Mean over seeds of measured / static - 1; empty unless every seed was measured.
-struct OverSeeds {
-  std::optional<double> mean;
-  double stddev = 0.0;
-};
-
-OverSeeds speed_error(const CampaignResults& r, StripMaterial key, Protocol protocol, StripWave wave, Verdict& v) {
+/// Mean over seeds of measured / static - 1; empty where fewer than `least` seeds gave a velocity.
+std::optional<double> speed_error(const CampaignResults& r, StripMaterial key, Protocol protocol, StripWave wave, std::size_t least, Verdict& v) {
   std::vector<double> errors;
   for (const std::int64_t seed : r.campaign.seeds) {
     key.seed = seed;
@@ -128,9 +123,8 @@ OverSeeds speed_error(const CampaignResults& r, StripMaterial key, Protocol prot
     add_failure(v, *w);
     if (w->speed) errors.push_back(*w->speed / w->static_speed - 1.0);
   }
-  if (errors.size() != r.campaign.seeds.size()) return {};
-  const Uncertain u = sample_statistics(errors);
-  return {u.value, u.stddev};
+  if (errors.size() < least) return std::nullopt;
+  return sample_statistics(errors).value;
 }
 
 std::optional<double> poisson_error(const CampaignResults& r, StripMaterial key) {
@@ -148,10 +142,11 @@ std::optional<double> poisson_error(const CampaignResults& r, StripMaterial key)
 
 Verdict random_verdict(const CampaignResults& r, const StripMaterial& key) {
   Verdict v{.case_id = case_id("long-wave/random", key), .title = title_of(key, fmt::format("Driven long pulse, mean of {} random packings", r.campaign.seeds.size()))};
+  const std::size_t seeds = r.campaign.seeds.size();  // every one must give a velocity
   const char* derivation = "static directional speeds of the same assemblies; single packings scatter by 0.7 % around them, the mean of four by half of that";
-  const auto s = speed_error(r, key, Protocol::long_wave, StripWave::shear, v).mean;
-  const auto p = speed_error(r, key, Protocol::long_wave, StripWave::p, v).mean;
-  const auto b = speed_error(r, key, Protocol::long_wave, StripWave::bar, v).mean;
+  const auto s = speed_error(r, key, Protocol::long_wave, StripWave::shear, seeds, v);
+  const auto p = speed_error(r, key, Protocol::long_wave, StripWave::p, seeds, v);
+  const auto b = speed_error(r, key, Protocol::long_wave, StripWave::bar, seeds, v);
   v.criteria = {judge("shear velocity over static", s, {0.0, -0.015, 0.015}, "", derivation),
                 judge("P velocity over static", p, {0.0, -0.015, 0.015}, "", derivation),
                 judge("bar velocity over static", b, {0.0, -0.04, 0.02}, "", "static speed of the very free strips; S0 dispersion slows the pulse by 1 to 2 %"),
@@ -168,8 +163,10 @@ Verdict random_verdict(const CampaignResults& r, const StripMaterial& key) {
 
 Verdict paper_verdict(const CampaignResults& r, const StripMaterial& key) {
   Verdict v{.case_id = case_id("paper/random", key), .title = title_of(key, "The paper's protocol: column release, peak to peak")};
-  const auto s = speed_error(r, key, Protocol::paper, StripWave::shear, v).mean;
-  const auto b = speed_error(r, key, Protocol::paper, StripWave::bar, v).mean;
+  // A column's wave has many crests, and where two are as high the pick is refused: half of the packings must do.
+  const std::size_t seeds = (r.campaign.seeds.size() + 1) / 2;
+  const auto s = speed_error(r, key, Protocol::paper, StripWave::shear, seeds, v);
+  const auto b = speed_error(r, key, Protocol::paper, StripWave::bar, seeds, v);
   v.criteria = {judge("shear velocity over static", s, {0.0, -0.10, 0.06}, "",
                       "a released column sends waves as short as the discs: measured -2 +- 2 % elsewhere, four standard deviations allowed"),
                 judge("bar velocity over static", b, {0.0, -0.25, 0.15}, "",

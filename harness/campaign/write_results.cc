@@ -16,7 +16,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr std::size_t kStoredSamples = 600;  // of a signal; a wave run has some thousands
+constexpr std::size_t kStoredSamples = 300;  // of a signal; a wave run has some thousands
 
 Json provenance_json() {
   Json j = Json::object();
@@ -50,24 +50,30 @@ void set_finite(Hdf5Group& g, const std::string& name, std::optional<double> val
   if (value && std::isfinite(*value)) g.set_attribute(name, *value);
 }
 
+/// signals: probe x sample; a pick that failed has its reason in pick_status and is not in pick_time.
 void write_recording(Hdf5Group& parent, const Recording& recording) {
   if (recording.signals.empty()) return;
-  Hdf5Group g = parent.create_group("signals");
   const std::size_t samples = recording.signals.front().values.size();
   const std::size_t stride = std::max<std::size_t>(1, samples / kStoredSamples);
-  std::vector<double> time;
-  for (std::size_t n = 0; n < samples; n += stride) time.push_back(static_cast<double>(n) * recording.sample_interval);
-  g.write("time", time).set_attribute("unit", "s");
+  std::vector<double> values, distance, pick_time, pick_amplitude;
+  std::vector<std::string> probes, pick_status;
   for (const PickedSignal& s : recording.signals) {
-    std::vector<double> values;
     for (std::size_t n = 0; n < samples; n += stride) values.push_back(s.values[n]);
-    Hdf5Dataset d = g.write(s.probe, values);
-    d.set_attribute("unit", "m");
-    d.set_attribute("distance_from_source", s.x);
-    if (s.pick_time) d.set_attribute("pick_time", *s.pick_time);
-    if (s.pick_amplitude) d.set_attribute("pick_amplitude", *s.pick_amplitude);
-    if (!s.pick_failure.empty()) d.set_attribute("pick_failure", s.pick_failure);
+    probes.push_back(s.probe);
+    distance.push_back(s.x);
+    pick_status.push_back(s.pick_time ? "ok" : s.pick_failure);
+    pick_time.push_back(s.pick_time.value_or(0.0));
+    pick_amplitude.push_back(s.pick_amplitude.value_or(0.0));
   }
+  Hdf5Group g = parent.create_group("recording");
+  Hdf5Dataset signals = g.write("signals", values, {recording.signals.size(), values.size() / recording.signals.size()});
+  signals.set_attribute("unit", "m");
+  signals.set_attribute("sample_interval", recording.sample_interval * static_cast<double>(stride));
+  g.write("probes", probes);
+  g.write("distance_from_source", distance).set_attribute("unit", "m");
+  g.write("pick_status", pick_status);
+  g.write("pick_time", pick_time).set_attribute("unit", "s, where pick_status is ok");
+  g.write("pick_amplitude", pick_amplitude).set_attribute("unit", "m, where pick_status is ok");
 }
 
 /// Slashes in an identity would make nested groups.
@@ -145,7 +151,12 @@ void write_results(const std::filesystem::path& folder, const CampaignResults& r
   write_hdf5(folder / "results.h5", r);
   write_json(folder / "summary.json", summary_json(r, verdicts));
   write_file(folder / "junit.xml", reports::render_junit("ddem validate", verdicts));
-  write_file(folder / "report.html", reports::render_html(report_of(r, verdicts)));
+  const reports::Report report = report_of(r, verdicts);
+  write_file(folder / "report.html", reports::render_html(report));
+  prepare_folder(folder / "figures");
+  for (const reports::Section& section : report.sections) {
+    for (const reports::Figure& figure : section.figures) write_file(folder / "figures" / (figure.id + ".svg"), reports::render_svg(figure));
+  }
 }
 
 }  // namespace ddem::harness

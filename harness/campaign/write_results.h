@@ -1,5 +1,6 @@
 #pragma once
-// The files of a campaign: results.h5, summary.json, junit.xml, report.html, each whole or not at all.
+// The files of a campaign: results.h5, summary.json, junit.xml, report.html, and its figures as SVG, each whole or not
+// at all.
 
 #include <filesystem>
 #include <vector>
@@ -12,7 +13,7 @@ namespace ddem::harness {
 /// Makes the folder, so that a campaign that cannot be written is not run. Throws MachineError.
 void prepare_folder(const std::filesystem::path& folder);
 
-/// Writes all four into `folder`. Throws MachineError.
+/// Writes all of them into `folder`. Throws MachineError.
 void write_results(const std::filesystem::path& folder, const CampaignResults& results,
                    const std::vector<reports::Verdict>& verdicts);
 

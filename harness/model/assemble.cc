@@ -89,7 +89,7 @@ Packing hexagonal_packing(const HexagonalPacking& p, Periodicity periodic) {
   return packings::hexagonal(spec);
 }
 
-Packing file_packing(const Scene& scene, const FilePacking& p) {
+Packing unchecked_file_packing(const Scene& scene, const FilePacking& p) {
   const auto table = read_disc_table(p.discs);
   if (!table) {
     std::vector<std::string> lines;
@@ -109,6 +109,11 @@ Packing file_packing(const Scene& scene, const FilePacking& p) {
   packing.length = p.length.value_or(extent(packing.x));
   packing.width = p.width.value_or(extent(packing.y));
   packing.period = {scene.assembly.periodic.x ? packing.length : 0.0, scene.assembly.periodic.y ? packing.width : 0.0};
+  return packing;
+}
+
+Packing file_packing(const Scene& scene, const FilePacking& p) {
+  Packing packing = unchecked_file_packing(scene, p);
   const auto problems = packing_problems(packing);
   if (!problems.empty()) {
     std::vector<std::string> lines;
@@ -165,9 +170,12 @@ ddem::Assembly build_assembly(const Scene& scene) { return assembly_with(scene, 
 
 std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene) {
   if (scene.assembly.periodic.y) return build_assembly(scene);
-  if (std::holds_alternative<FilePacking>(scene.assembly.packing)) return std::nullopt;
   Scene closed = scene;
   closed.assembly.periodic.y = true;
+  if (const auto* file = std::get_if<FilePacking>(&scene.assembly.packing)) {
+    const bool own_bonds = std::holds_alternative<BondFile>(scene.assembly.bonding);
+    if (!file->width || own_bonds || !packing_problems(unchecked_file_packing(closed, *file)).empty()) return std::nullopt;
+  }
   // A lattice closes on an even number of rows only: one more row is the same material.
   if (auto* hexagonal = std::get_if<HexagonalPacking>(&closed.assembly.packing)) {
     if (auto* lattice = std::get_if<HexagonalLattice>(&hexagonal->size)) {

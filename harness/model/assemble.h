@@ -18,7 +18,8 @@ Packing build_packing(const Scene& scene);
 ddem::Assembly build_assembly(const Scene& scene);
 
 /// The same material without free edges above and below: the random packing or a lattice closed in y. Empty for a
-/// packing from a file that is not periodic in y. Its moduli are what a P or shear wave between periodic edges sees.
+/// packing from a file that does not close: without a width to serve as its period, with bonds of its own, or whose
+/// discs would overlap through the period. Its moduli are what a P or shear wave between periodic edges sees.
 std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene);
 
 ContactParameters contact_parameters(const Scene& scene);

@@ -15,6 +15,7 @@ namespace ddem::harness {
 namespace {
 
 constexpr long kMostSteps = 2'000'000'000;
+constexpr double kMostSignalBytes = 4e9;
 
 double choose_step(const Scene& scene, double critical) {
   const Time& time = scene.time;
@@ -27,6 +28,18 @@ double choose_step(const Scene& scene, double critical) {
                                   seconds != nullptr ? step : step / critical, step, critical));
   }
   return step;
+}
+
+/// Signals are kept in memory: three values a probe and sample.
+void check_signal_size(const Scene& scene, const DemRun& run, double steps) {
+  const double samples = steps / static_cast<double>(scene.time.sample_every);
+  const double bytes = 24.0 * samples * static_cast<double>(std::max<std::size_t>(1, run.layout.probes.size()));
+  if (bytes > kMostSignalBytes) {
+    throw InputError(fmt::format("{}: time.sample_every = {}: {:.3g} samples of {} probes take {:.3g} GB; raise sample_every or end "
+                                 "earlier, so that they take at most {:.3g} GB",
+                                 scene.path.string(), scene.time.sample_every, samples, run.layout.probes.size(), bytes * 1e-9,
+                                 kMostSignalBytes * 1e-9));
+  }
 }
 
 long choose_steps(const Scene& scene, const DemRun& run) {
@@ -112,6 +125,7 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   run.time_step = in.time_step = choose_step(scene, run.critical_time_step);
   if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
   in.steps = choose_steps(scene, run);
+  check_signal_size(scene, run, static_cast<double>(in.steps));
   warn_of_instability(scene, run);
 
   run.result = simulate(run.assembly, in);
