@@ -166,11 +166,11 @@ StripCampaign read_strip_campaign(const std::filesystem::path& path) {
       report(entry.node.line, key, entry.node.text, "not a value of this key", remedy);
     }
   }
-  if (!problems.empty()) throw InputError(problems);
   if (campaign.rows % 2 != 0) {
-    throw InputError(fmt::format("{}: strip.rows = {}: an odd number of rows does not close periodically; give an even one",
-                                  file, campaign.rows));
+    problems.push_back(fmt::format("{}: strip.rows = {}: an odd number of rows does not close periodically; give an even one", file,
+                                   campaign.rows));
   }
+  if (!problems.empty()) throw InputError(problems);
   return campaign;
 }
 
