@@ -41,7 +41,7 @@ struct StripCampaign {
   double step_fraction = 0.2;             ///< of the critical time step
   double pulse_length = 8e-3;             ///< of the driven pulse in the strip, m (support)
   std::int64_t fem_degree = 4;
-  std::array<std::int64_t, 2> fem_elements = {66, 8};
+  std::array<std::int64_t, 2> fem_elements = {33, 4};  ///< along x and y: 0.5 mm each, for pulses of 8 mm
 };
 
 /// One simulation of the campaign.
