@@ -1,0 +1,94 @@
+// Help, versions, wrong arguments, and outputs that cannot be written.
+
+#include "tests/harness/cli/program.h"
+
+namespace ddem::harness::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const char* const kCommands[] = {"validate",  "run",   "fem",  "moduli", "stability",
+                                 "calibrate", "bench", "pack", "report", "compare"};
+
+TEST_F(Cli, EveryCommandHelps) {
+  const auto all = ddem({"--help"});
+  EXPECT_EQ(all.exit_code, 0);
+  for (const char* command : kCommands) {
+    EXPECT_THAT(all.standard_output, HasSubstr(std::string("\n  ") + command + " "));
+    const auto help = ddem({command, "--help"});
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_THAT(help.standard_output, HasSubstr("Usage: ")) << command;
+  }
+}
+
+TEST_F(Cli, VersionNamesCompilerAndLibraries) {
+  const auto version = ddem({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.standard_output,
+              AllOf(HasSubstr("ddem "), HasSubstr("Eigen "), HasSubstr("HDF5 "), HasSubstr("fmt ")));
+}
+
+TEST_F(Cli, WrongArguments) {
+  write("scene.toml", small_scene());
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"simulate"},
+                                                    {"run"},
+                                                    {"run", path("scene.toml"), "--fast"},
+                                                    {"run", path("scene.toml"), "-o"},
+                                                    {"pack", path("scene.toml")},
+                                                    {"validate", "-j", "none"},
+                                                    {"validate", "-j", "-1"}}) {
+    const auto run = ddem(arguments);
+    EXPECT_EQ(run.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_EQ(run.standard_output, "") << testing::PrintToString(arguments);
+    EXPECT_NE(run.standard_error, "") << testing::PrintToString(arguments);
+  }
+}
+
+TEST_F(Cli, CommandsToComeSaySo) {
+  write("scene.toml", small_scene());
+  for (const char* command : {"stability", "calibrate", "bench", "report", "compare"}) {
+    const auto run = ddem({command, path("scene.toml"), "--json"});
+    EXPECT_EQ(run.exit_code, 2) << command;
+    EXPECT_THAT(run.standard_error, HasSubstr(std::string("ddem ") + command + ": not built yet"));
+  }
+}
+
+TEST_F(Cli, AnOutputFolderThatIsMissing) {
+  write("scene.toml", small_scene());
+  const std::string scene = path("scene.toml");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", scene, "-o", path("none/new.h5")},
+        {"run", scene, "--signals", path("none/new.csv")},
+        {"fem", scene, "-o", path("none/new.h5")},
+        {"pack", scene, "-o", path("none/new.csv")}}) {
+    const auto run = ddem(arguments);
+    EXPECT_EQ(run.exit_code, 4) << testing::PrintToString(arguments);
+    EXPECT_THAT(run.standard_error, AllOf(HasSubstr("none/new."), HasSubstr("does not exist")));
+    EXPECT_EQ(contents().size(), 1u) << testing::PrintToString(arguments);
+  }
+}
+
+TEST_F(Cli, AnOutputThatIsAFolder) {
+  write("scene.toml", small_scene());
+  std::filesystem::create_directory(in_folder("results"));
+  const auto before = contents();
+  const auto run = ddem({"run", path("scene.toml"), "-o", path("results")});
+  EXPECT_TRUE(run.exit_code == 2 || run.exit_code == 4) << run.status();
+  EXPECT_THAT(run.standard_error, HasSubstr("results"));
+  expect_contents(before);
+}
+
+// A copy of ddem has no ddem-fem beside it.
+TEST_F(Cli, FemWithoutItsProgram) {
+  write("scene.toml", small_scene());
+  std::filesystem::copy_file(DDEM_PROGRAM, in_folder("ddem"));
+  const auto run = run_program(path("ddem"), {"fem", path("scene.toml"), "--json"});
+  EXPECT_EQ(run.exit_code, 4) << run.status();
+  EXPECT_THAT(run.standard_error, HasSubstr("ddem-fem"));
+  EXPECT_EQ(run.standard_output, "");
+}
+
+}  // namespace
+}  // namespace ddem::harness::test
