@@ -18,8 +18,9 @@ struct ContactParameters {
 };
 
 enum class Scheme {
-  none,   ///< plain DEM
-  lagged  ///< the published scheme: the strains come from the forces of the step before
+  none,     ///< plain DEM
+  lagged,   ///< the published scheme: the strains come from the forces of the step before
+  implicit  ///< the strains are in equilibrium with the forces of the same step
 };
 
 /// Which overlaps the strain corrects and which forces make the stress (theory section 1).
@@ -37,6 +38,9 @@ struct DeformationParameters {
   double young_modulus = 0.0;  ///< E_p of the disc, Pa
   double poisson_ratio = 0.0;  ///< nu_p of the disc
   Plane plane = Plane::stress;
+  int evaluations = 1;       ///< lagged: force evaluations a step
+  double relaxation = 1.0;   ///< lagged: weight of the new strain, the rest is that before
+  double tolerance = 1e-4;   ///< implicit: largest relative error of a stiffness against the converged one
 
   bool active() const { return scheme != Scheme::none; }
 };

@@ -4,14 +4,14 @@
 namespace ddem {
 
 namespace baseline {
-StepFunction choose(const StepFeatures&);
+StepKernels choose(const StepFeatures&);
 }
 #ifdef DDEM_X86_KERNELS
 namespace avx2 {
-StepFunction choose(const StepFeatures&);
+StepKernels choose(const StepFeatures&);
 }
 namespace avx512 {
-StepFunction choose(const StepFeatures&);
+StepKernels choose(const StepFeatures&);
 }
 #endif
 
@@ -29,7 +29,7 @@ InstructionSet best_instruction_set() {
   return InstructionSet::baseline;
 }
 
-StepFunction step_function(const StepFeatures& features, InstructionSet isa) {
+StepKernels step_kernels(const StepFeatures& features, InstructionSet isa) {
 #ifdef DDEM_X86_KERNELS
   if (isa == InstructionSet::avx512) return avx512::choose(features);
   if (isa == InstructionSet::avx2) return avx2::choose(features);

@@ -3,6 +3,10 @@
 //
 // Per slice of eight discs: gather the neighbours' motion, form the overlaps of a bond, correct them by the particle
 // strains, apply the law, sum the force, moment and stress of each disc; then kick and drift (leapfrog).
+//
+// Implicit strains solve (V C + S K G) eps = S K C u (theory section 3). With T = (V C)^-1 S K G, whose eigenvalues lie
+// in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of Chebyshev iterations from zero:
+// a polynomial of T, so that the effective stiffness is as symmetric as S K G, and conserves its energy exactly.
 // What a run does not use is not compiled into its kernel (if constexpr on the template parameters).
 
 #include <cmath>
@@ -86,35 +90,56 @@ struct StepKernel {
     Pack fx{}, fy{}, moment{}, sxx{}, syy{}, sxy{};
   };
 
-  static Strain strain_of(const StepData& d, int p) { return {d.exx[p], d.eyy[p], d.exy[p]}; }
+  /// The one loop over bonds: bond(k, p, l, sums) for each bond k of disc p in lane l, then disc(p, l, sums).
+  template <class Bond, class Disc>
+  static void for_slices(const StepData& d, int begin, int end, Bond bond, Disc disc) {
+    for (int slice = begin; slice < end; ++slice) {
+      const int first = slice * kWidth;
+      Sums sum;
+      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) {
+#pragma GCC ivdep
+        for (int l = 0; l < kWidth; ++l) bond(row * kWidth + l, first + l, l, sum);
+      }
+#pragma GCC ivdep
+      for (int l = 0; l < kWidth; ++l) disc(first + l, l, sum);
+    }
+  }
 
-  /// One bond seen from disc p: adds its force, moment and stress in lane l.
-  static void add_bond(const StepData& d, int k, int p, int l, Sums& sum) {
+  static BondState rigid(const StepData& d, int k, int p) {
     const int q = d.neighbour[k];
     const double theta_own = kRotation ? d.theta[p] : 0.0, theta_other = kRotation ? d.theta[q] : 0.0;
-    BondState b = Kinematics::template overlaps<kRotation>(d, k, d.ux[q] - d.ux[p], d.uy[q] - d.uy[p], theta_own,
-                                                           theta_other);
+    return Kinematics::template overlaps<kRotation>(d, k, d.ux[q] - d.ux[p], d.uy[q] - d.uy[p], theta_own, theta_other);
+  }
+
+  static Strain strain_of(const StepData& d, int p) { return {d.exx[p], d.eyy[p], d.exy[p]}; }
+
+  static void correct(const StepData& d, int k, int p, BondState& b) {
     if constexpr (kDeformable) {
-      const Strain own = strain_of(d, p), other = strain_of(d, q);
+      const Strain own = strain_of(d, p), other = strain_of(d, d.neighbour[k]);
       b.u_n -= b.arm_own * normal_part(own, b.nx, b.ny) + b.arm_other * normal_part(other, b.nx, b.ny);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
         b.u_t -= b.arm_own * tangential_part(own, b.nx, b.ny) + b.arm_other * tangential_part(other, b.nx, b.ny);
       }
     }
+  }
+
+  /// Force and moment on the disc, or the stress in it, or both.
+  template <bool kForce, bool kStress>
+  static void add(const StepData& d, const BondState& b, int l, Sums& sum) {
     const double f_n = d.normal_stiffness * b.u_n;
     double fx = f_n * b.nx, fy = f_n * b.ny;
-    if constexpr (kDeformable && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) {
-      add_stress(b, fx, fy, l, sum);
-    }
+    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_stress(b, fx, fy, l, sum);
     if constexpr (kRotation) {
       const double f_t = d.shear_stiffness * b.u_t;
       fx -= f_t * b.ny;
       fy += f_t * b.nx;
-      sum.moment[l] += b.arm_own * f_t;
-      if constexpr (kDeformable && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, l, sum);
+      if constexpr (kForce) sum.moment[l] += b.arm_own * f_t;
+      if constexpr (kStress && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, l, sum);
     }
-    sum.fx[l] += fx;
-    sum.fy[l] += fy;
+    if constexpr (kForce) {
+      sum.fx[l] += fx;
+      sum.fy[l] += fy;
+    }
   }
 
   /// V_p sigma_p = sum_c s_c (x) F_c, symmetrised, s_c = a n.
@@ -125,13 +150,18 @@ struct StepKernel {
     sum.sxy[l] += 0.5 * (sx * fy + sy * fx);
   }
 
-  /// eps_p = D : sigma_p, for the next step's overlaps.
-  static void store_strain(const StepData& d, int p, int l, const Sums& sum) {
+  /// eps_p = D : sigma_p.
+  static Strain strain_from(const StepData& d, int p, int l, const Sums& sum) {
     const double w = d.inverse_volume[p];
     const double sxx = w * sum.sxx[l], syy = w * sum.syy[l], sxy = w * sum.sxy[l];
-    d.exx_next[p] = d.compliance_direct * sxx + d.compliance_coupling * syy;
-    d.eyy_next[p] = d.compliance_coupling * sxx + d.compliance_direct * syy;
-    d.exy_next[p] = d.compliance_shear * sxy;
+    return {d.compliance_direct * sxx + d.compliance_coupling * syy, d.compliance_coupling * sxx + d.compliance_direct * syy,
+            d.compliance_shear * sxy};
+  }
+
+  static void relax_strain(const StepData& d, int p, const Strain& e) {
+    d.exx_next[p] = d.keep_strain * d.exx[p] + d.new_strain * e.xx;
+    d.eyy_next[p] = d.keep_strain * d.eyy[p] + d.new_strain * e.yy;
+    d.exy_next[p] = d.keep_strain * d.exy[p] + d.new_strain * e.xy;
   }
 
   static void kick_and_drift(const StepData& d, int p, int l, const Sums& sum) {
@@ -145,44 +175,103 @@ struct StepKernel {
     }
   }
 
+  /// Forces from the strains at hand; lagged: and from these forces the strains to come.
+  template <bool kLagged>
   static void step(const StepData& data, int begin, int end) {
     const StepData d = data;  // pointers in registers: no store can change them
-    for (int slice = begin; slice < end; ++slice) {
-      const int first = slice * kWidth;
-      Sums sum;
-      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) {
-#pragma GCC ivdep
-        for (int l = 0; l < kWidth; ++l) add_bond(d, row * kWidth + l, first + l, l, sum);
-      }
-#pragma GCC ivdep
-      for (int l = 0; l < kWidth; ++l) {
-        kick_and_drift(d, first + l, l, sum);
-        if constexpr (kDeformable) store_strain(d, first + l, l, sum);
-      }
+    for_slices(
+        d, begin, end,
+        [&d](int k, int p, int l, Sums& sum) {
+          BondState b = rigid(d, k, p);
+          correct(d, k, p, b);
+          add<true, kLagged>(d, b, l, sum);
+        },
+        [&d](int p, int l, const Sums& sum) {
+          kick_and_drift(d, p, l, sum);
+          if constexpr (kLagged) relax_strain(d, p, strain_from(d, p, l, sum));
+        });
+  }
+
+  static void evaluate(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for_slices(
+        d, begin, end,
+        [&d](int k, int p, int l, Sums& sum) {
+          BondState b = rigid(d, k, p);
+          correct(d, k, p, b);
+          add<false, true>(d, b, l, sum);
+        },
+        [&d](int p, int l, const Sums& sum) { relax_strain(d, p, strain_from(d, p, l, sum)); });
+  }
+
+  /// f = (V C)^-1 S K C u, and the first approximation f / theta, theta the middle of the spectrum of 1 + T.
+  static void source(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for_slices(
+        d, begin, end, [&d](int k, int p, int l, Sums& sum) { add<false, true>(d, rigid(d, k, p), l, sum); },
+        [&d](int p, int l, const Sums& sum) {
+          const Strain f = strain_from(d, p, l, sum);
+          d.source_xx[p] = f.xx;
+          d.source_yy[p] = f.yy;
+          d.source_xy[p] = f.xy;
+          d.exx_next[p] = d.change_xx[p] = d.first_weight * f.xx;
+          d.eyy_next[p] = d.change_yy[p] = d.first_weight * f.yy;
+          d.exy_next[p] = d.change_xy[p] = d.first_weight * f.xy;
+        });
+  }
+
+  /// The residual f - eps - T eps, and the next approximation. Overlaps of strains alone are -G eps, so their stress
+  /// gives -T eps.
+  static void iterate(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for_slices(
+        d, begin, end,
+        [&d](int k, int p, int l, Sums& sum) {
+          BondState b{d.nx[k], d.ny[k], d.arm_own[k], d.arm_other[k], 0.0, 0.0};
+          correct(d, k, p, b);
+          add<false, true>(d, b, l, sum);
+        },
+        [&d](int p, int l, const Sums& sum) {
+          const Strain minus_t = strain_from(d, p, l, sum);
+          const auto next = [&](double source, double minus_te, double e, double* change) {
+            *change = d.change_weight * *change + d.residual_weight * ((source - e) + minus_te);
+            return e + *change;
+          };
+          d.exx_next[p] = next(d.source_xx[p], minus_t.xx, d.exx[p], &d.change_xx[p]);
+          d.eyy_next[p] = next(d.source_yy[p], minus_t.yy, d.eyy[p], &d.change_yy[p]);
+          d.exy_next[p] = next(d.source_xy[p], minus_t.xy, d.exy[p], &d.change_xy[p]);
+        });
+  }
+
+  static StepKernels kernels(bool implicit) {
+    if constexpr (kDeformable) {
+      if (implicit) return {&step<false>, nullptr, &source, &iterate};
+      return {&step<true>, &evaluate, nullptr, nullptr};
     }
+    return {&step<false>, nullptr, nullptr, nullptr};
   }
 };
 
 template <class Kinematics, bool kRotation>
-StepFunction choose_strain(StrainCoupling strain) {
-  switch (strain) {
-    case StrainCoupling::none: return &StepKernel<Kinematics, kRotation, StrainCoupling::none>::step;
-    case StrainCoupling::normal: return &StepKernel<Kinematics, kRotation, StrainCoupling::normal>::step;
-    case StrainCoupling::full: return &StepKernel<Kinematics, kRotation, StrainCoupling::full>::step;
+StepKernels choose_strain(const StepFeatures& f) {
+  switch (f.strain) {
+    case StrainCoupling::none: return StepKernel<Kinematics, kRotation, StrainCoupling::none>::kernels(false);
+    case StrainCoupling::normal: return StepKernel<Kinematics, kRotation, StrainCoupling::normal>::kernels(f.implicit);
+    case StrainCoupling::full: return StepKernel<Kinematics, kRotation, StrainCoupling::full>::kernels(f.implicit);
     case StrainCoupling::normal_only_stress:
-      return &StepKernel<Kinematics, kRotation, StrainCoupling::normal_only_stress>::step;
+      return StepKernel<Kinematics, kRotation, StrainCoupling::normal_only_stress>::kernels(f.implicit);
   }
-  return nullptr;
+  return {};
 }
 
 template <class Kinematics>
-StepFunction choose_rotation(const StepFeatures& f) {
-  return f.rotation ? choose_strain<Kinematics, true>(f.strain) : choose_strain<Kinematics, false>(f.strain);
+StepKernels choose_rotation(const StepFeatures& f) {
+  return f.rotation ? choose_strain<Kinematics, true>(f) : choose_strain<Kinematics, false>(f);
 }
 
 }  // namespace
 
-StepFunction choose(const StepFeatures& f) {
+StepKernels choose(const StepFeatures& f) {
   return f.nonlinear ? choose_rotation<NonlinearKinematics>(f) : choose_rotation<LinearKinematics>(f);
 }
 

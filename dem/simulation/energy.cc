@@ -8,7 +8,7 @@ EnergyAudit::EnergyAudit(const Assembly& assembly, const ContactParameters& cont
                          const DeformationParameters& deformation, std::vector<int> position)
     : assembly_(assembly), contact_(contact), deformation_(deformation), position_(std::move(position)) {}
 
-EnergyAudit::Overlaps EnergyAudit::overlaps(std::size_t c, const MotionView& u, const StrainView& e) const {
+EnergyAudit::Overlaps EnergyAudit::rigid_overlaps(std::size_t c, const MotionView& u) const {
   const Bonds& b = assembly_.bonds;
   const int i = position_[b.i[c]], j = position_[b.j[c]];
   const double nx = b.nx[c], ny = b.ny[c];
@@ -17,14 +17,21 @@ EnergyAudit::Overlaps EnergyAudit::overlaps(std::size_t c, const MotionView& u, 
   if (contact_.has_rotation()) {
     w.tangential = nx * dy - ny * dx - (b.arm_i[c] * u.theta[i] + b.arm_j[c] * u.theta[j]);
   }
-  if (!deformation_.active()) return w;
+  return w;
+}
+
+/// G eps of a bond.
+EnergyAudit::Overlaps EnergyAudit::correction(std::size_t c, const StrainView& e) const {
+  const Bonds& b = assembly_.bonds;
+  const int i = position_[b.i[c]], j = position_[b.j[c]];
+  const double nx = b.nx[c], ny = b.ny[c];
   const auto n_eps_n = [&](int p) { return nx * nx * e.exx[p] + ny * ny * e.eyy[p] + 2.0 * nx * ny * e.exy[p]; };
   const auto t_eps_n = [&](int p) { return nx * ny * (e.eyy[p] - e.exx[p]) + (nx * nx - ny * ny) * e.exy[p]; };
-  w.normal -= b.arm_i[c] * n_eps_n(i) + b.arm_j[c] * n_eps_n(j);
+  Overlaps g{b.arm_i[c] * n_eps_n(i) + b.arm_j[c] * n_eps_n(j), 0.0};
   if (contact_.has_rotation() && deformation_.correction == Correction::full) {
-    w.tangential -= b.arm_i[c] * t_eps_n(i) + b.arm_j[c] * t_eps_n(j);
+    g.tangential = b.arm_i[c] * t_eps_n(i) + b.arm_j[c] * t_eps_n(j);
   }
-  return w;
+  return g;
 }
 
 double EnergyAudit::strain_energy(const StrainView& e) const {
@@ -48,11 +55,21 @@ double EnergyAudit::energy(const MotionView& now, const MotionView& next, const 
     sum += 0.5 * assembly_.mass[disc] * (v.vx[p] * v.vx[p] + v.vy[p] * v.vy[p]);
     if (contact_.has_rotation()) sum += 0.5 * assembly_.inertia[disc] * v.omega[p] * v.omega[p];
   }
+  const bool lagged = deformation_.scheme == Scheme::lagged;
   for (std::size_t c = 0; c < assembly_.bonds.size(); ++c) {
-    const Overlaps a = overlaps(c, now, strain), b = overlaps(c, next, strain);
-    sum += 0.5 * (contact_.normal_stiffness * a.normal * b.normal + contact_.shear_stiffness() * a.tangential * b.tangential);
+    Overlaps w = rigid_overlaps(c, now), e = rigid_overlaps(c, next);
+    if (deformation_.active()) {
+      const Overlaps g = correction(c, strain);
+      w.normal -= g.normal;
+      w.tangential -= g.tangential;
+      if (lagged) {
+        e.normal -= g.normal;
+        e.tangential -= g.tangential;
+      }
+    }
+    sum += 0.5 * (contact_.normal_stiffness * w.normal * e.normal + contact_.shear_stiffness() * w.tangential * e.tangential);
   }
-  return deformation_.active() ? sum + strain_energy(strain) : sum;
+  return lagged ? sum + strain_energy(strain) : sum;
 }
 
 }  // namespace ddem

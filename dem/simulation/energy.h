@@ -1,7 +1,9 @@
 #pragma once
 // Energy of a linear simulation between two steps: the quantity that leapfrog conserves exactly,
-//   E = v_{n+1/2}' M v_{n+1/2} / 2 + w_n' K w_{n+1} / 2 + sum_p V_p eps : C_p : eps / 2,
-// w the overlaps corrected by the particle strains in use (theory sections 1 and 3).
+//   E = v_{n+1/2}' M v_{n+1/2} / 2 + e_{n+1}' F_n / 2,  e the rigid overlaps, F the forces (theory section 3).
+// With implicit strains F = K (e - G eps(e)) is linear and symmetric in e, so that half e' F is contact and particle
+// energy together. With lagged strains nothing is conserved; there the energy is taken with the strains in use,
+//   E = v' M v / 2 + w_n' K w_{n+1} / 2 + sum_p V_p eps : C_p : eps / 2,  w = e - G eps.
 
 #include <optional>
 
@@ -34,7 +36,8 @@ class EnergyAudit {
   struct Overlaps {
     double normal, tangential;
   };
-  Overlaps overlaps(std::size_t bond, const MotionView& u, const StrainView& strain) const;
+  Overlaps rigid_overlaps(std::size_t bond, const MotionView& u) const;
+  Overlaps correction(std::size_t bond, const StrainView& strain) const;
   double strain_energy(const StrainView& strain) const;
 
   const Assembly& assembly_;

@@ -22,6 +22,12 @@ void check_input(const Assembly& a, const SimulationInput& in) {
   if (!(in.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
   if (in.steps < 0) throw std::invalid_argument("the number of steps must not be negative");
   if (in.sample_every < 1) throw std::invalid_argument("sample_every must be at least 1");
+  const DeformationParameters& deformation = in.deformation;
+  if (deformation.evaluations < 1) throw std::invalid_argument("evaluations must be at least 1");
+  if (!(deformation.relaxation > 0.0 && deformation.relaxation <= 1.0)) throw std::invalid_argument("relaxation must be in (0, 1]");
+  if (deformation.scheme == Scheme::implicit && in.contact.kinematics == Kinematics::nonlinear) {
+    throw std::invalid_argument("implicit particle strains need linear kinematics");
+  }
   if (in.threads < 1) throw std::invalid_argument("threads must be at least 1");
   for (const auto* v : {&in.initial.ux, &in.initial.uy, &in.initial.theta, &in.initial.vx, &in.initial.vy, &in.initial.omega}) {
     if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("an initial state has not one value a disc");
@@ -106,9 +112,8 @@ class DriftMonitor {
     const long n = stepper_.step();
     if (!active_ || n < first_ || (have_reference_ && n % every_ != 0)) return;
     const StepData& d = stepper_.data();
-    // Strains in use in the step just done are in the other buffer now.
     const double e = audit_.energy({d.ux_next, d.uy_next, d.theta_next}, {d.ux, d.uy, d.theta}, {d.vx, d.vy, d.omega},
-                                   {d.exx_next, d.eyy_next, d.exy_next});
+                                   stepper_.strains_in_use());
     if (!have_reference_) {
       reference_ = e;
       have_reference_ = true;
@@ -129,7 +134,7 @@ class DriftMonitor {
   double reference_ = 0.0, drift_ = 0.0;
 };
 
-/// What happens between two steps, on one thread; returns false to stop.
+/// What happens between two stages and steps, on one thread; returns false to stop.
 class Overseer {
  public:
   Overseer(const Assembly& a, const SimulationInput& in, Stepper& stepper, SimulationResult& result)
@@ -138,8 +143,8 @@ class Overseer {
     recorder_.sample();
   }
 
-  bool finish_step() {
-    stepper_.finish_step();
+  bool finish_stage() {
+    if (!stepper_.finish_stage()) return true;
     const long n = stepper_.step();
     if (n % kCheckEvery == 0 || n == in_.steps) {
       if (const int disc = stepper_.diverged_disc(bound_); disc >= 0) {
@@ -177,13 +182,13 @@ class Overseer {
 void run_one_thread(Stepper& stepper, Overseer& overseer) {
   do {
     stepper.advance(0, stepper.slices());
-  } while (overseer.finish_step());
+  } while (overseer.finish_stage());
 }
 
-/// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the step.
+/// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the stage.
 void run_threads(Stepper& stepper, Overseer& overseer, int threads) {
   bool go_on = true;
-  std::barrier barrier(threads, [&]() noexcept { go_on = overseer.finish_step(); });
+  std::barrier barrier(threads, [&]() noexcept { go_on = overseer.finish_stage(); });
   const auto work = [&](int id) {
     const int begin = static_cast<int>(static_cast<long>(stepper.slices()) * id / threads);
     const int end = static_cast<int>(static_cast<long>(stepper.slices()) * (id + 1) / threads);

@@ -66,8 +66,7 @@ struct SimulationResult {
   bool stopped = false;                  ///< on_progress asked for it
   long steps_done = 0;
   double wall_seconds = 0.0;  ///< of the time loop
-  /// Largest relative deviation of the leapfrog invariant v'Mv/2 + w_n'K w_{n+1}/2 (+ strain energy) from its first
-  /// value, from the end of the drive on. Empty for nonlinear kinematics, which has no such invariant.
+  /// Largest relative deviation of the leapfrog invariant (see energy.h) from its first value, from the end of the drive on. Empty for nonlinear kinematics, which has no such invariant.
   std::optional<double> energy_drift;
   InitialState final_state;  ///< displacements at the last step, velocities half a step before
 };

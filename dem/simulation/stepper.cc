@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "dem/spectra/spectra.h"
+
 namespace ddem {
 namespace {
 
@@ -25,7 +27,8 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       discs_(a.size()),
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
-      drive_(input.drive) {
+      drive_(input.drive),
+      implicit_(input.deformation.scheme == Scheme::implicit) {
   bonds_ = slice_bonds(a.bonds, position_);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
   for (auto* array : {&ux_, &uy_, &ux_next_, &uy_next_, &vx_, &vy_, &kick_x_, &kick_y_}) array->assign(padded_, 0.0);
@@ -37,6 +40,15 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       array->assign(padded_, 0.0);
     }
   }
+  if (implicit_) {
+    for (auto* array : {&source_xx_, &source_yy_, &source_xy_, &change_xx_, &change_yy_, &change_xy_}) {
+      array->assign(padded_, 0.0);
+    }
+    // Lanczos finds the radius to 1e-5 or better; beyond the interval the iteration would grow.
+    const double radius = fixed_point_radius(a, input.contact, input.deformation);
+    chebyshev_ = chebyshev_weights(radius * (1.0 + 1e-3), input.deformation.tolerance);
+  }
+  stages_ = implicit_ ? static_cast<int>(chebyshev_.size()) + 1 : deformable_ ? input.deformation.evaluations : 1;
   const bool nonlinear = input.contact.kinematics == Kinematics::nonlinear;
   if (nonlinear && rotation_) {
     for (auto* array : {&previous_dx_, &previous_dy_, &previous_rotation_, &slip_}) {
@@ -63,10 +75,28 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
     data_.compliance_direct = c.direct;
     data_.compliance_coupling = c.coupling;
     data_.compliance_shear = c.shear;
+    data_.keep_strain = 1.0 - input.deformation.relaxation;
+    data_.new_strain = input.deformation.relaxation;
   }
-  step_ = step_function({rotation_, nonlinear, coupling(input.deformation)}, isa);
+  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_}, isa);
   load(input.initial);
   start_leapfrog();
+  begin_stage(0);
+}
+
+/// Implicit: source, iterations, motion. Lagged: further evaluations of the strains, motion.
+void Stepper::begin_stage(int stage) {
+  stage_ = stage;
+  if (stage == stages_ - 1) {
+    due_ = kernels_.step;
+  } else if (implicit_) {
+    due_ = stage == 0 ? kernels_.source : kernels_.iterate;
+    data_.first_weight = chebyshev_[stage].first;
+    data_.change_weight = chebyshev_[stage].change;
+    data_.residual_weight = chebyshev_[stage].residual;
+  } else {
+    due_ = kernels_.evaluate;
+  }
 }
 
 void Stepper::load(const InitialState& s) {
@@ -84,9 +114,16 @@ void Stepper::load(const InitialState& s) {
 /// of the kernel itself from rest, whose results are then forgotten.
 void Stepper::start_leapfrog() {
   AlignedVector<double> vx(padded_, 0.0), vy(padded_, 0.0), omega(omega_.size(), 0.0);
+  if (implicit_) {
+    for (int stage = 0; stage < stages_ - 1; ++stage) {
+      begin_stage(stage);
+      advance(0, bonds_.slices);
+      swap_strains();
+    }
+  }
   StepData d = data_;
   d.vx = vx.data(), d.vy = vy.data(), d.omega = omega.data();
-  step_(d, 0, bonds_.slices);
+  kernels_.step(d, 0, bonds_.slices);
   for (std::size_t p = 0; p < padded_; ++p) {
     vx_[p] -= 0.5 * vx[p];
     vy_[p] -= 0.5 * vy[p];
@@ -100,16 +137,32 @@ void Stepper::impose(double time, AlignedVector<double>& ux, AlignedVector<doubl
   for (const int d : drive_->discs) u[position_[d]] = value;
 }
 
-void Stepper::finish_step() {
-  ++step_number_;
-  if (drive_) impose(static_cast<double>(step_number_) * data_.dt, ux_next_, uy_next_);
-  std::swap(ux_, ux_next_);
-  std::swap(uy_, uy_next_);
-  std::swap(theta_, theta_next_);
+bool Stepper::finish_stage() {
+  const bool last = stage_ == stages_ - 1;
+  if (last) {
+    ++step_number_;
+    if (drive_) impose(static_cast<double>(step_number_) * data_.dt, ux_next_, uy_next_);
+    std::swap(ux_, ux_next_);
+    std::swap(uy_, uy_next_);
+    std::swap(theta_, theta_next_);
+  }
+  // The motion of an implicit step leaves the strains as they are; every other stage has written new ones.
+  if (!(last && implicit_)) swap_strains();
+  bind();
+  begin_stage(last ? 0 : stage_ + 1);
+  return last;
+}
+
+void Stepper::swap_strains() {
   std::swap(exx_, exx_next_);
   std::swap(eyy_, eyy_next_);
   std::swap(exy_, exy_next_);
   bind();
+}
+
+StrainView Stepper::strains_in_use() const {
+  if (implicit_) return {exx_.data(), eyy_.data(), exy_.data()};
+  return {exx_next_.data(), eyy_next_.data(), exy_next_.data()};
 }
 
 void Stepper::bind() {
@@ -124,6 +177,8 @@ void Stepper::bind() {
   d.exx = exx_.data(), d.eyy = eyy_.data(), d.exy = exy_.data();
   d.exx_next = exx_next_.data(), d.eyy_next = eyy_next_.data(), d.exy_next = exy_next_.data();
   d.inverse_volume = inverse_volume_.data();
+  d.source_xx = source_xx_.data(), d.source_yy = source_yy_.data(), d.source_xy = source_xy_.data();
+  d.change_xx = change_xx_.data(), d.change_yy = change_yy_.data(), d.change_xy = change_xy_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();
   d.previous_rotation = previous_rotation_.data(), d.slip = slip_.data();
 }

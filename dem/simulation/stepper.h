@@ -7,6 +7,8 @@
 #include "dem/kernel/aligned.h"
 #include "dem/kernel/sliced_bonds.h"
 #include "dem/kernel/step_data.h"
+#include "dem/simulation/chebyshev.h"
+#include "dem/simulation/energy.h"
 #include "dem/simulation/simulation.h"
 
 namespace ddem {
@@ -15,11 +17,11 @@ class Stepper {
  public:
   Stepper(const Assembly& assembly, const SimulationInput& input, InstructionSet isa);
 
-  /// Advances the slices [begin, end) from step n to n + 1. Several threads may do this on disjoint ranges; then one of
-  /// them calls finish_step.
-  void advance(int begin, int end) { step_(data_, begin, end); }
-  /// Imposes the driven edge at t_{n+1}, exchanges the buffers.
-  void finish_step();
+  /// A step is a row of stages: strains to be found first, then the motion. Works on the slices [begin, end) of the
+  /// stage that is due; several threads may do this on disjoint ranges, then one of them calls finish_stage.
+  void advance(int begin, int end) { due_(data_, begin, end); }
+  /// Exchanges what the stage wrote; after the last one the driven edge is imposed at t_{n+1}. True when a step is done.
+  bool finish_stage();
 
   int slices() const { return bonds_.slices; }
   long step() const { return step_number_; }
@@ -27,6 +29,8 @@ class Stepper {
   const std::vector<int>& order() const { return position_; }
 
   const StepData& data() const { return data_; }
+  /// The strains that corrected the overlaps of the last step.
+  StrainView strains_in_use() const;
   /// Finds a disc whose displacement is not finite or beyond `bound` (m); -1 if there is none.
   int diverged_disc(double bound) const;
   InitialState state() const;
@@ -36,6 +40,8 @@ class Stepper {
   void start_leapfrog();
   void impose(double time, AlignedVector<double>& ux, AlignedVector<double>& uy) const;
   void bind();
+  void swap_strains();
+  void begin_stage(int stage);
 
   SlicedBonds bonds_;
   std::vector<int> position_;
@@ -46,8 +52,13 @@ class Stepper {
   AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_;
   AlignedVector<double> exx_, eyy_, exy_, exx_next_, eyy_next_, exy_next_, inverse_volume_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
+  AlignedVector<double> source_xx_, source_yy_, source_xy_, change_xx_, change_yy_, change_xy_;
   StepData data_{};
-  StepFunction step_ = nullptr;
+  StepKernels kernels_;
+  SliceFunction due_ = nullptr;
+  bool implicit_ = false;
+  int stages_ = 1, stage_ = 0;
+  std::vector<ChebyshevWeights> chebyshev_;
   long step_number_ = 0;
 };
 

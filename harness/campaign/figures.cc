@@ -16,6 +16,7 @@ reports::Color color_of(Model model) {
     case Model::dem: return reports::Color::blue;
     case Model::lagged_normal: return reports::Color::vermilion;
     case Model::lagged_full: return reports::Color::green;
+    case Model::implicit_full: return reports::Color::purple;
   }
   return reports::Color::automatic;
 }

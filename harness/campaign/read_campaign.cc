@@ -84,8 +84,9 @@ Setter seeds(std::vector<std::int64_t>& member) {
 Setter models(std::vector<Model>& member) {
   return [&member](const Node& node) -> std::string {
     static const std::map<std::string, Model> kNames = {
-        {"dem", Model::dem}, {"lagged-normal", Model::lagged_normal}, {"lagged-full", Model::lagged_full}};
-    const char* remedy = "give a list of \"dem\", \"lagged-normal\", \"lagged-full\", each at most once";
+        {"dem", Model::dem}, {"lagged-normal", Model::lagged_normal}, {"lagged-full", Model::lagged_full},
+        {"implicit-full", Model::implicit_full}};
+    const char* remedy = "give a list of \"dem\", \"lagged-normal\", \"lagged-full\", \"implicit-full\", each at most once";
     const auto* list = std::get_if<Node::List>(&node.value);
     if (list == nullptr || list->empty()) return remedy;
     std::vector<Model> values;

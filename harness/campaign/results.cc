@@ -33,7 +33,7 @@ Uncertain sample_statistics(const std::vector<double>& values) {
 }
 
 bool expected_unstable(const StripCampaign& s, const StripMaterial& c) {
-  if (c.model == Model::dem || c.packing != StripPacking::hexagonal) return false;
+  if (c.model == Model::dem || c.model == Model::implicit_full || c.packing != StripPacking::hexagonal) return false;
   const bool normal = c.model == Model::lagged_normal;
   if (normal && c.stiffness_ratio > references::hexagonal_normal_ratio_limit) return true;
   const double limit = references::hexagonal_fixed_point_limit(

@@ -14,6 +14,7 @@ std::string slug(Model m) {
     case Model::dem: return "dem";
     case Model::lagged_normal: return "lagged-normal";
     case Model::lagged_full: return "lagged-full";
+    case Model::implicit_full: return "implicit-full";
   }
   throw std::logic_error("unknown model");
 }
@@ -29,8 +30,8 @@ std::string material_text(const StripCampaign& s, const StripCase& c) {
   std::string t = fmt::format("[material]\ndensity = {}\n\n[contact]\nnormal_stiffness = {}\nstiffness_ratio = {}\nnew_contacts = \"off\"\n\n",
                               s.density, s.normal_stiffness, c.stiffness_ratio);
   if (c.model == Model::dem) return t;
-  return t + fmt::format("[deformation]\nscheme = \"lagged\"\ncorrection = \"{}\"\nyoung_modulus = {}\npoisson_ratio = {}\n\n",
-                         c.model == Model::lagged_normal ? "normal" : "full", s.particle_modulus, s.particle_poisson_ratio);
+  return t + fmt::format("[deformation]\nscheme = \"{}\"\ncorrection = \"{}\"\nyoung_modulus = {}\npoisson_ratio = {}\n\n",
+                         c.model == Model::implicit_full ? "implicit" : "lagged", c.model == Model::lagged_normal ? "normal" : "full", s.particle_modulus, s.particle_poisson_ratio);
 }
 
 std::string packing_text(const StripCampaign& s, const StripCase& c, const std::string& periodic) {
@@ -63,6 +64,7 @@ std::string name(Model model) {
     case Model::dem: return "DEM";
     case Model::lagged_normal: return "DDEM N";
     case Model::lagged_full: return "DDEM F";
+    case Model::implicit_full: return "DDEM F implicit";
   }
   throw std::logic_error("unknown model");
 }

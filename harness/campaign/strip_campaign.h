@@ -12,8 +12,8 @@
 
 namespace ddem::harness {
 
-/// Plain DEM, or a correction of the published (lagged) scheme.
-enum class Model { dem, lagged_normal, lagged_full };
+/// Plain DEM; the published (lagged) scheme with either correction; the full correction with strains of the same step.
+enum class Model { dem, lagged_normal, lagged_full, implicit_full };
 
 enum class StripPacking { hexagonal, random };
 
@@ -27,7 +27,7 @@ enum class StripWave { bar, shear, p };
 struct StripCampaign {
   std::string title = "The strip of the paper";
   std::vector<double> stiffness_ratios = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
-  std::vector<Model> models = {Model::dem, Model::lagged_normal, Model::lagged_full};
+  std::vector<Model> models = {Model::dem, Model::lagged_normal, Model::lagged_full, Model::implicit_full};
   std::vector<std::int64_t> seeds = {1, 2, 3, 4};
 
   double length = 16.5e-3, width = 2e-3;  ///< m
@@ -54,7 +54,7 @@ struct StripCase {
   StripWave wave = StripWave::shear;
 };
 
-std::string name(Model model);       ///< "DEM", "DDEM N", "DDEM F"
+std::string name(Model model);       ///< "DEM", "DDEM N", "DDEM F", "DDEM F implicit"
 std::string name(StripWave wave);    ///< "bar", "shear", "P"
 std::string material_slug(Model model, double stiffness_ratio);  ///< "lagged-full/kt0.30": the end of a verdict's name
 std::string id_of(const StripCase& c);  ///< "long-wave/random-1/lagged-full/kt0.30/shear"

@@ -66,7 +66,7 @@ Verdict static_verdict(const StaticOutcome& s) {
 
 /// A lattice released from noise: where theory says so, it must diverge; elsewhere it must not.
 Verdict stability_verdict(const StabilityOutcome& o) {
-  Verdict v{.case_id = case_id("stability/hexagonal", o.key), .title = title_of(o.key, "Published scheme on the lattice, released from noise")};
+  Verdict v{.case_id = case_id("stability/hexagonal", o.key), .title = title_of(o.key, "The lattice released from noise")};
   const std::string expectation =
       o.expected_unstable ? (o.key.model == Model::lagged_normal ? "theory: N is unstable above k_t/k_n = 1/3 or beyond the fixed-point limit"
                                                                  : "theory: unstable beyond the fixed-point limit")

@@ -32,9 +32,8 @@ void print_summary(const FemPlan& plan, const FemResult& r, const std::optional<
 }
 
 int run(const Options& o) {
-  check_output(o.hdf5);
-  check_output(o.csv);
   const Scene scene = load_scene(o.scene, Purpose::continuum);
+  check_outputs({o.hdf5, o.csv}, scene);
   std::optional<SceneModuli> moduli;
   if (!continuum_stands_alone(scene)) moduli = scene_moduli(scene);
   const FemPlan plan = plan_fem(scene, moduli);

@@ -48,7 +48,12 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    // Data that did not reach standard output must not look like success.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw MachineError("standard output could not be written");
+    }
+    return code;
   } catch (const std::exception& e) {
     fmt::print(stderr, "ddem: {}\n", e.what());
     return static_cast<int>(exit_code_of(e));

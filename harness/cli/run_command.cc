@@ -45,9 +45,8 @@ void print_summary(const DemRun& run) {
 }
 
 int run(const Options& o) {
-  check_output(o.hdf5);
-  check_output(o.csv);
   const Scene scene = load_scene(o.scene, Purpose::simulation);
+  check_outputs({o.hdf5, o.csv}, scene);
   Progress progress(kProgressUnits, "simulating");
   std::size_t shown = 0;
   RunOptions options;
@@ -60,9 +59,10 @@ int run(const Options& o) {
   for (const std::string& warning : run.warnings) fmt::print(stderr, "ddem: warning: {}\n", warning);
   if (o.json) fmt::print("{}", to_text(run_json(run)));
   if (run.result.divergence) {
-    throw SolverError(fmt::format("{}: the run diverged at step {} (t = {:.4g} s), disc {}; lower the time step or stiffen the discs",
+    throw SolverError(fmt::format("{}: the run diverged at step {} (t = {:.4g} s), disc {}; {}",
                                   o.scene, run.result.divergence->step, static_cast<double>(run.result.divergence->step) * run.time_step,
-                                  run.result.divergence->disc));
+                                  run.result.divergence->disc,
+                                  scene.deformation ? "lower the time step, stiffen the discs, or use scheme = \"implicit\"" : "lower the time step"));
   }
   SignalTable table;
   const Signals& s = run.result.signals;

@@ -52,8 +52,9 @@ struct PackOptions {
 };
 
 int pack(const PackOptions& o) {
-  check_output(o.output);
-  const Packing p = build_packing(load_scene(o.scene, Purpose::packing));
+  const Scene scene = load_scene(o.scene, Purpose::packing);
+  check_outputs({o.output}, scene);
+  const Packing p = build_packing(scene);
   write_file(o.output, csv_text("x,y,radius", std::array<std::span<const double>, 3>{p.x, p.y, p.radius}));
   double area = 0.0;
   for (const double r : p.radius) area += M_PI * r * r;

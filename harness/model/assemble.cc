@@ -7,12 +7,14 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <tuple>
 
 #include "dem/assembly/contacts.h"
 #include "dem/assembly/packing_check.h"
 #include "harness/io/errors.h"
 #include "harness/scene/csv.h"
+#include "harness/scene/place.h"
 #include "meshes/packings/hexagonal.h"
 #include "meshes/packings/random.h"
 
@@ -26,17 +28,21 @@ struct Overload : F... {
 template <class... F>
 Overload(F...) -> Overload<F...>;
 
-[[noreturn]] void reject(const Scene& scene, const std::string& table, const std::string& message) {
-  throw InputError(scene.path.string() + ": [" + table + "]: " + message);
+/// The key of [assembly] that a user would change first.
+std::string_view bonding_key(const Scene& scene) {
+  for (const std::string_view key : {"assembly.bonds", "assembly.coordination", "assembly.bond_gap"}) {
+    if (scene.places.contains(std::string(key))) return key;
+  }
+  return "assembly.packing";
 }
 
-/// Library errors know no scene: this adds it.
+/// Library errors know no scene, and end with their remedy after a semicolon: this adds the place.
 template <class F>
-auto naming_scene(const Scene& scene, const std::string& table, F&& f) {
+auto naming_scene(const Scene& scene, std::string_view key, F&& f) {
   try {
     return f();
   } catch (const std::invalid_argument& e) {
-    reject(scene, table, e.what());
+    throw InputError(scene_problem(scene, key, e.what(), ""));
   }
 }
 
@@ -97,7 +103,7 @@ Packing unchecked_file_packing(const Scene& scene, const FilePacking& p) {
     throw InputError(lines);
   }
   Packing packing{table->x, table->y, table->radius, {}, 0.0, 0.0};
-  if (packing.size() < 2) reject(scene, "assembly", p.discs.string() + " holds fewer than two discs");
+  if (packing.size() < 2) throw InputError(scene_problem(scene, "assembly.file", "fewer than two discs", "give at least two rows"));
   const auto extent = [&](const std::vector<double>& c) {
     double lo = c[0], hi = c[0];
     for (std::size_t d = 0; d < c.size(); ++d) {
@@ -118,13 +124,14 @@ Packing file_packing(const Scene& scene, const FilePacking& p) {
   if (!problems.empty()) {
     std::vector<std::string> lines;
     for (const std::string& problem : problems) lines.push_back(p.discs.string() + ": " + problem);
+    lines.push_back("  (discs count from 0 in the order of the rows; move them apart, shrink them, or correct the periods)");
     throw InputError(lines);
   }
   return packing;
 }
 
 Packing packing_with(const Scene& scene, Periodicity periodic) {
-  return naming_scene(scene, "assembly", [&] {
+  return naming_scene(scene, "assembly.packing", [&] {
     return std::visit(Overload{[](const RandomPacking& p) { return random_packing(p); },
                                [&](const HexagonalPacking& p) { return hexagonal_packing(p, periodic); },
                                [&](const FilePacking& p) { return file_packing(scene, p); }},
@@ -152,7 +159,7 @@ Bonds bonds_for(const Scene& scene, const Packing& packing) {
 
 ddem::Assembly assembly_with(const Scene& scene, Periodicity periodic) {
   Packing packing = packing_with(scene, periodic);
-  return naming_scene(scene, "assembly", [&] {
+  return naming_scene(scene, bonding_key(scene), [&] {
     const Bonds bonds = cut_at_edges(packing, bonds_for(scene, packing), !periodic.x, !periodic.y);
     if (!periodic.x) packing.period.x = 0.0;
     if (!periodic.y) packing.period.y = 0.0;
@@ -201,7 +208,10 @@ DeformationParameters deformation_parameters(const Scene& scene) {
   if (!scene.deformation) return {};
   const Deformation& d = *scene.deformation;
   DeformationParameters p;
-  p.scheme = Scheme::lagged;
+  p.scheme = d.scheme == DeformationScheme::implicit ? Scheme::implicit : Scheme::lagged;
+  p.evaluations = static_cast<int>(d.evaluations);
+  p.relaxation = d.relaxation;
+  p.tolerance = d.tolerance;
   p.correction = d.correction == Correction::normal ? ddem::Correction::normal
                  : d.correction == Correction::full ? ddem::Correction::full
                                                     : ddem::Correction::normal_only_stress;

@@ -1,10 +1,13 @@
 #include "harness/model/probes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "harness/io/errors.h"
+#include "harness/scene/place.h"
 
 namespace ddem::harness {
 namespace {
@@ -103,8 +106,8 @@ ProbeLayout lay_probes(const Scene& scene, const ddem::Assembly& a) {
   if (const auto* named = std::get_if<ProbeDiscs>(&scene.probes)) {
     for (const std::int64_t disc : named->discs) {
       if (disc < 0 || disc >= static_cast<std::int64_t>(a.size())) {
-        problems.push_back(scene.path.string() + ": probes.discs: " + std::to_string(disc) + " does not exist; discs are 0 to " +
-                           std::to_string(a.size() - 1));
+        problems.push_back(scene_problem(scene, "probes.discs", fmt::format("disc {} does not exist", disc),
+                                         fmt::format("discs are 0 to {}", a.size() - 1)));
       } else {
         layout.probes.push_back(disc_probe(a, static_cast<int>(disc)));
       }
@@ -113,9 +116,8 @@ ProbeLayout lay_probes(const Scene& scene, const ddem::Assembly& a) {
     const Box box(a.packing);
     for (const auto& [x, y] : std::get<ProbePoints>(scene.probes).points) {
       if (x < 0.0 || x > box.x1 - box.x0 || y < 0.0 || y > box.y1 - box.y0) {
-        problems.push_back(scene.path.string() + ": probes.points: (" + std::to_string(x) + ", " + std::to_string(y) +
-                           ") m lies outside the assembly of " + std::to_string(box.x1 - box.x0) + " m x " +
-                           std::to_string(box.y1 - box.y0) + " m");
+        problems.push_back(scene_problem(scene, "probes.points", fmt::format("({:g}, {:g}) m lies outside the assembly", x, y),
+                                         fmt::format("x and y count from the lower left corner of {:g} m x {:g} m", box.x1 - box.x0, box.y1 - box.y0)));
       } else {
         layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + x, box.y0 + y)));
       }

@@ -10,6 +10,7 @@
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
 #include "harness/run/scene_moduli.h"
+#include "harness/scene/place.h"
 
 namespace ddem::harness {
 namespace {
@@ -22,10 +23,9 @@ double choose_step(const Scene& scene, double critical) {
   const auto* seconds = std::get_if<StepSeconds>(&time.step);
   const double step = seconds != nullptr ? seconds->seconds : std::get<StepFraction>(time.step).of_critical * critical;
   if (step > critical && !time.allow_above_critical) {
-    throw InputError(fmt::format("{}: time.{} = {:.6g}: the time step {:.6g} s is above the critical one, {:.6g} s; "
-                                  "lower it, or set time.allow_above_critical = true for a stability study",
-                                  scene.path.string(), seconds != nullptr ? "step" : "step_fraction",
-                                  seconds != nullptr ? step : step / critical, step, critical));
+    throw InputError(scene_problem(scene, seconds != nullptr ? "time.step" : "time.step_fraction",
+                                   fmt::format("the time step {:.6g} s is above the critical one, {:.6g} s", step, critical),
+                                   "lower it, or set time.allow_above_critical = true for a stability study"));
   }
   return step;
 }
@@ -35,10 +35,9 @@ void check_signal_size(const Scene& scene, const DemRun& run, double steps) {
   const double samples = steps / static_cast<double>(scene.time.sample_every);
   const double bytes = 24.0 * samples * static_cast<double>(std::max<std::size_t>(1, run.layout.probes.size()));
   if (bytes > kMostSignalBytes) {
-    throw InputError(fmt::format("{}: time.sample_every = {}: {:.3g} samples of {} probes take {:.3g} GB; raise sample_every or end "
-                                 "earlier, so that they take at most {:.3g} GB",
-                                 scene.path.string(), scene.time.sample_every, samples, run.layout.probes.size(), bytes * 1e-9,
-                                 kMostSignalBytes * 1e-9));
+    throw InputError(scene_problem(scene, "time.sample_every",
+                                   fmt::format("{:.3g} samples of {} probes take {:.3g} GB", samples, run.layout.probes.size(), bytes * 1e-9),
+                                   fmt::format("raise it or end earlier: at most {:.3g} GB", kMostSignalBytes * 1e-9)));
   }
 }
 
@@ -49,16 +48,16 @@ long choose_steps(const Scene& scene, const DemRun& run) {
     seconds = end->seconds;
   } else {
     if (!run.wave || run.layout.pairs.empty()) {
-      throw InputError(scene.path.string() + ": time.end: without pairs of probes and a pulse there is no last peak to "
-                                              "wait for; give time.end or time.steps");
+      throw InputError(scene_problem(scene, "time.end", "without pairs of probes and a pulse there is no last peak to wait for",
+                                     "give time.end or time.steps"));
     }
     // The kinematic estimate is up to 25 % too fast.
     for (const Probe& p : run.layout.probes) seconds = std::max(seconds, time_of_passage(run.context, p.x, 0.45));
   }
   const double steps = std::ceil(seconds / run.time_step);
   if (!(steps <= static_cast<double>(kMostSteps))) {
-    throw InputError(fmt::format("{}: time.end = {:.6g} s takes {:.3g} steps of {:.3g} s; at most {} are allowed",
-                                  scene.path.string(), seconds, steps, run.time_step, kMostSteps));
+    throw InputError(scene_problem(scene, "time.end", fmt::format("{:.6g} s take {:.3g} steps of {:.3g} s", seconds, steps, run.time_step),
+                                   fmt::format("at most {} steps are allowed", kMostSteps)));
   }
   return static_cast<long>(steps);
 }
@@ -80,13 +79,19 @@ WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave,
 /// Lagged DDEM beyond its limits runs, with a warning (theory section 3).
 void warn_of_instability(const Scene& scene, DemRun& run) {
   const DeformationParameters d = deformation_parameters(scene);
-  if (!d.active()) return;
-  const double radius = fixed_point_radius(run.assembly, contact_parameters(scene), d);
+  if (d.scheme != Scheme::lagged) return;
+  if (d.evaluations % 2 == 0 && d.relaxation == 1.0) {
+    run.warnings.push_back(fmt::format("deformation.evaluations = {}: an even number of evaluations without relaxation adds energy "
+                                       "to the waves; use an odd number, or relaxation below 1",
+                                       d.evaluations));
+  }
+  // A share w of the new strain stretches the limit of the fixed point to 2/w - 1.
+  const double radius = fixed_point_radius(run.assembly, contact_parameters(scene), d) / (2.0 / d.relaxation - 1.0);
   if (radius >= 1.0) {
-    run.warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g}, and it "
-                                       "must be below 1; stiffen the discs (young_modulus) by at least that factor",
+    run.warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g} times what it may "
+                                       "be; stiffen the discs (young_modulus) by that factor, or use scheme = \"implicit\"",
                                        radius));
-  } else if (d.correction != ddem::Correction::normal || scene.contact->stiffness_ratio == 0.0) {
+  } else if (d.evaluations == 1 && d.relaxation == 1.0 && (d.correction != ddem::Correction::normal || scene.contact->stiffness_ratio == 0.0)) {
     DeformationParameters symmetric = d;
     if (scene.contact->stiffness_ratio == 0.0) symmetric.correction = ddem::Correction::normal_only_stress;
     const double limit = flip_limit_step(run.assembly, contact_parameters(scene), symmetric, held_dofs(scene, run.assembly));

@@ -6,6 +6,7 @@
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
+#include "harness/scene/place.h"
 
 namespace ddem::harness {
 namespace {
@@ -43,7 +44,7 @@ ProbeLayout nominal_layout(const Scene& scene, const Rectangle& box) {
   ProbeLayout layout;
   for (const auto& [x, y] : std::get<ProbePoints>(scene.probes).points) {
     if (x < 0.0 || x > box.x1 - box.x0 || y < 0.0 || y > box.width) {
-      throw InputError(scene.path.string() + ": probes.points: a point lies outside the strip");
+      throw InputError(scene_problem(scene, "probes.points", "a point lies outside the strip", "x and y count from its lower left corner"));
     }
     layout.probes.push_back({"p" + std::to_string(layout.probes.size()), x, y, {}});
   }
@@ -58,10 +59,10 @@ double mean_column_spacing(const std::optional<ddem::Assembly>& a, const Rectang
 double choose_end(const Scene& scene, const FemPlan& plan) {
   if (const auto* end = std::get_if<EndTime>(&scene.time.end)) return end->seconds;
   if (std::holds_alternative<EndSteps>(scene.time.end)) {
-    throw InputError(scene.path.string() + ": time.steps: the continuum's time step is not that of the discs; give time.end");
+    throw InputError(scene_problem(scene, "time.steps", "the continuum's time step is not that of the discs", "give time.end"));
   }
   if (plan.layout.pairs.empty()) {
-    throw InputError(scene.path.string() + ": time.end: without pairs of probes there is no last peak to wait for; give time.end");
+    throw InputError(scene_problem(scene, "time.end", "without pairs of probes there is no last peak to wait for", "give time.end"));
   }
   double seconds = 0.0;
   for (const Probe& p : plan.layout.probes) seconds = std::max(seconds, time_of_passage(plan.context, p.x, 0.3));

@@ -82,6 +82,7 @@ Deformation build_deformation(const Values& values) {
   deformation.scheme = values.choice<DeformationScheme>("deformation.scheme");
   deformation.evaluations = values.integer("deformation.evaluations");
   deformation.relaxation = values.number("deformation.relaxation");
+  deformation.tolerance = values.number("deformation.tolerance");
   deformation.correction = values.choice<Correction>("deformation.correction");
   deformation.young_modulus = values.number("deformation.young_modulus");
   deformation.poisson_ratio = values.number("deformation.poisson_ratio");

@@ -42,6 +42,7 @@ constexpr OnlyWith only_with[] = {
     {"assembly.bonds", "assembly.packing", "file"},
     {"deformation.evaluations", "deformation.scheme", "lagged | none"},
     {"deformation.relaxation", "deformation.scheme", "lagged | none"},
+    {"deformation.tolerance", "deformation.scheme", "implicit"},
     {"initial.center", "initial.shape", "gaussian"},
 };
 

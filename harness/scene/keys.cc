@@ -18,6 +18,7 @@ constexpr Range non_zero{.zero_excluded = true};
 constexpr Range between_minus_one_and_one{
     .low = -1.0, .high = 1.0, .low_excluded = true, .high_excluded = true};
 constexpr Range fraction{.low = 0.0, .high = 1.0, .low_excluded = true};
+constexpr Range small_fraction{.low = 1e-12, .high = 0.1};
 constexpr Range from(double low, double high = unlimited) {
   return {.low = low, .high = high};
 }
@@ -110,9 +111,11 @@ constexpr KeySpec keys[] = {
            "whether discs that are not bonded repel when they meet"),
 
     choice("deformation", "scheme", "none | lagged | implicit", "\"lagged\"",
-           "none: plain DEM; lagged: the published scheme; implicit: consistent"),
+           "none: plain DEM; lagged: the published scheme; implicit: strains and forces of the same step"),
     integer("deformation", "evaluations", from(1, 1000), "1", "lagged: force evaluations a step"),
     number("deformation", "relaxation", fraction, "1.0", "lagged: under-relaxation of the particle strains"),
+    number("deformation", "tolerance", small_fraction, "1e-4",
+           "implicit: largest relative error of the stiffness against converged strains"),
     choice("deformation", "correction", "normal | full | normal_only_stress", "\"normal\"",
            "N (published): normal overlaps; F: also slips; NN: stress from normal forces"),
     quantity("deformation", "young_modulus", stress, positive, no_default, "of the disc"),

@@ -7,7 +7,7 @@
 namespace ddem::harness {
 namespace {
 
-enum class When { given, equals, differs };
+enum class When { given, equals };
 
 struct NotBuilt {
   std::string_view key;
@@ -19,9 +19,6 @@ struct NotBuilt {
 constexpr NotBuilt not_built[] = {
     {"assembly.walls", When::equals, "flat", "use walls = \"periodic\""},
     {"contact.contact_modulus", When::given, "", "use normal_stiffness"},
-    {"deformation.scheme", When::equals, "implicit", "use scheme = \"lagged\" or \"none\""},
-    {"deformation.evaluations", When::differs, "1", "use evaluations = 1"},
-    {"deformation.relaxation", When::differs, "1", "use relaxation = 1.0"},
     {"time.integrator", When::equals, "exact", "use integrator = \"verlet\""},
 };
 
@@ -35,7 +32,7 @@ std::string text_of(const Value& value) {
 bool asks_for(const Values& values, const NotBuilt& setting) {
   if (!values.given(setting.key) || !values.has(setting.key)) return false;
   if (setting.when == When::given) return true;
-  return (text_of(values.value(setting.key)) == setting.value) == (setting.when == When::equals);
+  return text_of(values.value(setting.key)) == setting.value;
 }
 
 }  // namespace

@@ -39,6 +39,9 @@ SceneResult parse_scene(std::string_view text, const std::string& name,
   Scene scene = build_scene(values);
   scene.path = name;
   scene.source_text = text;
+  for (const Entry& entry : document->entries) {
+    scene.places[dotted_name(entry.table, entry.key)] = {entry.node.line, entry.node.text};
+  }
   return scene;
 }
 

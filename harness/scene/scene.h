@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -100,6 +101,7 @@ struct Deformation {
   DeformationScheme scheme = DeformationScheme::lagged;  ///< never none: that is a scene without deformation
   std::int64_t evaluations = 1;                          ///< of the forces, per step
   double relaxation = 1.0;
+  double tolerance = 1e-4;  ///< implicit: of the stiffness, against converged strains
   Correction correction = Correction::normal;
   double young_modulus = 0.0;  ///< of the disc, Pa
   double poisson_ratio = 0.0;  ///< of the disc
@@ -192,6 +194,12 @@ struct Run {
   std::int64_t threads = 1;
 };
 
+/// Where a key stands in the scene file, and how its value is written.
+struct Place {
+  int line = 0;
+  std::string text;
+};
+
 struct Scene {
   std::string title;
   Assembly assembly;
@@ -207,6 +215,7 @@ struct Scene {
 
   std::filesystem::path path;  ///< of the scene file
   std::string source_text;     ///< the scene file itself
+  std::map<std::string, Place> places;  ///< by dotted key, of what is written
 };
 
 }  // namespace ddem::harness

@@ -102,13 +102,13 @@ TEST_P(RandomStrip, MeanOfFourSeeds) {
 }
 
 std::string model_name(Model m) {
-  return m == Model::dem ? "Dem" : "LaggedFull";
+  return m == Model::dem ? "Dem" : m == Model::lagged_full ? "LaggedFull" : "ImplicitFull";
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, HexagonalStrip, testing::Values(Model::dem, Model::lagged_full),
+INSTANTIATE_TEST_SUITE_P(Models, HexagonalStrip, testing::Values(Model::dem, Model::lagged_full, Model::implicit_full),
                          [](const auto& model) { return model_name(model.param); });
 INSTANTIATE_TEST_SUITE_P(Models, RandomStrip,
-                         testing::Combine(testing::Values(Model::dem, Model::lagged_full),
+                         testing::Combine(testing::Values(Model::dem, Model::lagged_full, Model::implicit_full),
                                           testing::Values(0.2, 1.0)),
                          [](const auto& parameters) {
                            return model_name(std::get<0>(parameters.param)) + "Kt" +

@@ -88,7 +88,7 @@ TEST_F(BadFiles, TwoHalves) {
   for (std::size_t d = 0; d < discs.size(); ++d) {
     if (d % 30 >= 15) discs[d].x += kRadius;
   }
-  expect_discs_refused(disc_table(discs), {"scene.toml: [assembly]: the assembly falls apart into 2 networks",
+  expect_discs_refused(disc_table(discs), {"assembly.packing = \"file\": the assembly falls apart into 2 networks",
                                            "raise bond_gap"});
 }
 

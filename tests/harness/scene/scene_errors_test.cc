@@ -178,12 +178,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "assembly.walls = \"flat\": not built yet; use walls = \"periodic\""},
         Mistake{"normal_stiffness = 1e10", "contact_modulus = \"20 GPa\"",
                 "not built yet; use normal_stiffness"},
-        Mistake{"", "[deformation]\nscheme = \"implicit\"\nyoung_modulus = 1\npoisson_ratio = 0\n",
-                "not built yet"},
-        Mistake{"", "[deformation]\nevaluations = 3\nyoung_modulus = 1\npoisson_ratio = 0\n",
-                "not built yet"},
-        Mistake{"", "[deformation]\nrelaxation = 0.5\nyoung_modulus = 1\npoisson_ratio = 0\n",
-                "not built yet"},
         Mistake{"", "[time]\nintegrator = \"exact\"\n", "not built yet; use integrator = \"verlet\""}));
 
 TEST(SceneErrors, PlaneStressTakesWhatPlaneStrainCannot) {
