@@ -95,9 +95,9 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
   reports::Report report;
   report.title = s.title;
   report.summary = {fmt::format("Strips of {:g} mm × {:g} mm: {} random discs (coordination {:g}, seeds {}) and a hexagonal lattice of {} × {}; "
-                                "disc density {:g} kg/m³, kₙ = {:g} N/m, kₙ/Eₚ = {:g}, νₚ = {:g}. DDEM is the published scheme: the "
-                                "strains of the discs come from the forces of the step before. N corrects normal overlaps, as published; "
-                                "F corrects both and derives from an energy.",
+                                "disc density {:g} kg/m³, kₙ = {:g} N/m, kₙ/Eₚ = {:g}, νₚ = {:g}. DDEM N and F are the published "
+                                "scheme, in which the strains of the discs come from the forces of the step before: N corrects normal overlaps, "
+                                "as published; F corrects both and derives from an energy. F implicit takes strains and forces of the same step.",
                                 s.length * 1e3, s.width * 1e3, s.discs, s.coordination, fmt::join(s.seeds, ", "), s.columns, s.rows, s.density,
                                 s.normal_stiffness, s.normal_stiffness / s.particle_modulus, s.particle_poisson_ratio)};
   report.headlines = headlines(r);

@@ -18,10 +18,17 @@ const WaveOutcome* CampaignResults::find(const StripCase& c) const {
   return it == waves.end() ? nullptr : &*it;
 }
 
-const FemOutcome* CampaignResults::find(const StripMaterial& key, StripWave wave) const {
+const FemOutcome* CampaignResults::find(const StripMaterial& material, StripWave wave) const {
+  StripMaterial key = material;
+  key.model = continuum_model(campaign, material.model);
   const auto it = std::find_if(fem.begin(), fem.end(),
                                [&](const FemOutcome& f) { return f.key == key && f.wave == wave && !f.uniaxial; });
   return it == fem.end() ? nullptr : &*it;
+}
+
+Model continuum_model(const StripCampaign& campaign, Model model) {
+  const bool has_lagged = std::find(campaign.models.begin(), campaign.models.end(), Model::lagged_full) != campaign.models.end();
+  return model == Model::implicit_full && has_lagged ? Model::lagged_full : model;
 }
 
 Uncertain sample_statistics(const std::vector<double>& values) {

@@ -114,8 +114,13 @@ struct CampaignResults {
 
   const StaticOutcome* find(const StripMaterial& key) const;
   const WaveOutcome* find(const StripCase& c) const;
-  const FemOutcome* find(const StripMaterial& key, StripWave wave) const;
+  /// The continuum of that material: see continuum_model().
+  const FemOutcome* find(const StripMaterial& material, StripWave wave) const;
 };
+
+/// The model whose static moduli stand for a model's: lagged and implicit strains have the same equilibrium, and the
+/// continuum is run once for both.
+Model continuum_model(const StripCampaign& campaign, Model model);
 
 /// Mean and standard deviation of the sample (n - 1).
 Uncertain sample_statistics(const std::vector<double>& values);
