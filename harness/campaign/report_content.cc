@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "harness/campaign/figures.h"
+#include "harness/measure/elastic_constants.h"
 #include "harness/provenance/provenance.h"
 
 namespace ddem::harness {
@@ -31,7 +33,30 @@ std::vector<reports::Headline> headlines(const CampaignResults& r) {
   return out;
 }
 
-/// One row a model and ratio: each wave's measured velocity and how far it is from the static one.
+/// Mean bulk density of the random packings, kg/m3.
+double mean_density(const CampaignResults& r, Model model, double ratio) {
+  std::vector<double> densities;
+  for (const StaticOutcome& s : r.statics) {
+    if (s.key.packing == StripPacking::random && s.key.model == model && s.key.stiffness_ratio == ratio) densities.push_back(s.moduli.bulk_density);
+  }
+  return sample_statistics(densities).value;
+}
+
+struct ElasticConstants {
+  double young = std::numeric_limits<double>::quiet_NaN(), shear = young, poisson = young;
+};
+
+/// E and G from bar and shear speed; nu from P and shear where there is a P wave, else from bar and shear.
+ElasticConstants elastic_constants(double density, const Uncertain& bar, const Uncertain& shear, const Uncertain* p) {
+  ElasticConstants e;
+  if (std::isfinite(bar.value)) e.young = young_modulus_from_bar(density, bar).value;
+  if (std::isfinite(shear.value)) e.shear = shear_modulus_from_shear(density, shear).value;
+  if (p != nullptr && std::isfinite(p->value) && std::isfinite(shear.value)) e.poisson = poisson_ratio_from_p_and_shear(*p, shear).value;
+  if (p == nullptr && std::isfinite(bar.value) && std::isfinite(shear.value)) e.poisson = poisson_ratio_from_bar_and_shear(bar, shear).value;
+  return e;
+}
+
+/// One row a model and ratio: each wave's measured velocity, how far it is from the static one, and what follows.
 reports::Table speed_table(const CampaignResults& r, Protocol protocol) {
   const bool with_p = protocol == Protocol::long_wave;
   reports::Table t;
@@ -44,18 +69,18 @@ reports::Table speed_table(const CampaignResults& r, Protocol protocol) {
     t.columns.push_back({name(wave), "m/s", 5});
     t.columns.push_back({"− static", "%", 2});
   }
-  t.columns.push_back({with_p ? "ν from P and shear" : "ν from bar and shear", "", 3});
+  t.columns.insert(t.columns.end(), {{"E", "GPa", 4}, {"G", "GPa", 4}, {with_p ? "ν (P, shear)" : "ν (bar, shear)", "", 3}});
   for (const Model model : r.campaign.models) {
     for (const double ratio : r.campaign.stiffness_ratios) {
       std::vector<reports::Cell> row = {name(model), ratio};
-      std::vector<double> speeds;
+      std::vector<Uncertain> speeds;
       for (const StripWave wave : waves) {
         const SpeedPoint s = random_speed(r, model, ratio, protocol, wave);
         row.insert(row.end(), {s.measured.value, 100.0 * (s.measured.value / s.statics - 1.0)});
-        speeds.push_back(s.measured.value);
+        speeds.push_back(s.measured);
       }
-      const double ratio_squared = speeds[1] * speeds[1] / (speeds.back() * speeds.back());
-      row.push_back(with_p ? 1.0 - 2.0 * ratio_squared : 0.5 * speeds[0] * speeds[0] / (speeds[1] * speeds[1]) - 1.0);
+      const ElasticConstants e = elastic_constants(mean_density(r, model, ratio), speeds[0], speeds[1], with_p ? &speeds[2] : nullptr);
+      row.insert(row.end(), {e.young * 1e-9, e.shear * 1e-9, e.poisson});
       t.rows.push_back(row);
     }
   }
