@@ -176,7 +176,7 @@ reports::Figure waveform_figure(const CampaignResults& r) {
   reports::Figure figure{.id = "waveforms",
                          .title = "Particles over continuum: a driven pulse at two sections",
                          .caption = "Full lines: particles, averaged over the discs of a section. Dashed: finite elements with the static moduli of the same "
-                                    "packing. The published scheme damps (its strains lag by a step), so that its pulse is lower."};
+                                    "packing. Where the strains of the discs lag by a step, they damp the pulse a little."};
   const double ratio = shown_ratio(r);
   for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
     reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
