@@ -102,7 +102,7 @@ StaticSolver::StaticSolver(const Assembly& assembly, const ContactParameters& co
                            const DeformationParameters& deformation, const HeldDofs& held)
     : impl_(std::make_unique<Impl>(assembly)) {
   impl_->op = make_operators(assembly, contact, deformation);
-  impl_->scale = contact.normal_stiffness;
+  impl_->scale = impl_->op.stiffness.maxCoeff();
   impl_->number_unknowns(held);
   impl_->build_matrix();
   impl_->factorise();

@@ -200,8 +200,15 @@ std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene) {
 
 ContactParameters contact_parameters(const Scene& scene) {
   const Contact& c = scene.contact.value();
-  return {std::get<NormalStiffness>(c.stiffness).k_n, c.stiffness_ratio,
-          c.kinematics == Kinematics::linear ? ddem::Kinematics::linear : ddem::Kinematics::nonlinear};
+  ContactParameters p;
+  p.stiffness_ratio = c.stiffness_ratio;
+  p.kinematics = c.kinematics == Kinematics::linear ? ddem::Kinematics::linear : ddem::Kinematics::nonlinear;
+  if (const auto* modulus = std::get_if<ContactModulus>(&c.stiffness)) {
+    p.contact_modulus = modulus->pascal;
+  } else {
+    p.normal_stiffness = std::get<NormalStiffness>(c.stiffness).k_n;
+  }
+  return p;
 }
 
 DeformationParameters deformation_parameters(const Scene& scene) {
@@ -212,6 +219,8 @@ DeformationParameters deformation_parameters(const Scene& scene) {
   p.evaluations = static_cast<int>(d.evaluations);
   p.relaxation = d.relaxation;
   p.tolerance = d.tolerance;
+  p.solver = d.solver == StrainSolver::polynomial ? ddem::StrainSolver::polynomial : ddem::StrainSolver::conjugate_gradients;
+  p.volume = d.volume == ParticleVolume::disc ? ddem::ParticleVolume::disc : ddem::ParticleVolume::cell;
   p.correction = d.correction == Correction::normal ? ddem::Correction::normal
                  : d.correction == Correction::full ? ddem::Correction::full
                                                     : ddem::Correction::normal_only_stress;

@@ -37,10 +37,12 @@ void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const Pro
 Json run_json(const DemRun& run) {
   const SimulationResult& r = run.result;
   Json j{{"status", "ok"}};
-  if (r.divergence) {
-    j["status"] = "diverged";
-    j["diverged_step"] = r.divergence->step;
-    j["diverged_disc"] = r.divergence->disc;
+  if (r.breakdown) {
+    j["status"] = r.breakdown->cause == Breakdown::Cause::diverged                ? "diverged"
+                  : r.breakdown->cause == Breakdown::Cause::strains_not_converged ? "strains not converged"
+                                                                                  : "strains indefinite";
+    j["diverged_step"] = r.breakdown->step;
+    j["diverged_disc"] = r.breakdown->disc;
   }
   j["warnings"] = run.warnings;
   j["discs"] = run.assembly.size();
@@ -58,7 +60,7 @@ Json run_json(const DemRun& run) {
   j["energy_drift"] = r.energy_drift ? Json(*r.energy_drift)
                                      : Json{{"status", "not audited: nonlinear kinematics has no leapfrog invariant, or the run "
                                                        "ended before its source did"}};
-  add_measurement(j, run.measurement, run.layout, r.divergence ? "the run diverged" : "the scene has no pairs of probes and pulse");
+  add_measurement(j, run.measurement, run.layout, r.breakdown ? "the run broke down" : "the scene has no pairs of probes and pulse");
   return j;
 }
 

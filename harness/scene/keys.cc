@@ -103,7 +103,7 @@ constexpr KeySpec keys[] = {
 
     quantity("contact", "normal_stiffness", stiffness, positive, no_default, "k_n, the same for every bond"),
     quantity("contact", "contact_modulus", stress, positive, no_default,
-             "instead of normal_stiffness: k_n of a bond in proportion to its size"),
+             "instead of normal_stiffness: k_n = contact_modulus * 2 r_i r_j/(r_i + r_j), bond by bond"),
     number("contact", "stiffness_ratio", non_negative, no_default, "k_t / k_n"),
     choice("contact", "kinematics", "linear | nonlinear", "\"linear\"",
            "small displacements, or current geometry with incremental shear"),
@@ -114,8 +114,11 @@ constexpr KeySpec keys[] = {
            "none: plain DEM; lagged: the published scheme; implicit: strains and forces of the same step"),
     integer("deformation", "evaluations", from(1, 1000), "1", "lagged: force evaluations a step"),
     number("deformation", "relaxation", fraction, "1.0", "lagged: under-relaxation of the particle strains"),
-    number("deformation", "tolerance", small_fraction, "1e-4",
-           "implicit: largest relative error of the stiffness against converged strains"),
+    choice("deformation", "solver", "polynomial | conjugate_gradients", "\"polynomial\"",
+           "implicit: a fixed polynomial, which conserves energy to round-off, or iteration from the strains before, which is "
+           "faster for soft discs (k_n/E_p above 1)"),
+    number("deformation", "tolerance", small_fraction, "2.5e-4",
+           "implicit: largest relative error of the stiffness of any motion (polynomial) or of the strains (conjugate_gradients)"),
     choice("deformation", "correction", "normal | full | normal_only_stress", "\"normal\"",
            "N (published): normal overlaps; F: also slips; NN: stress from normal forces"),
     quantity("deformation", "young_modulus", stress, positive, no_default, "of the disc"),
@@ -123,6 +126,8 @@ constexpr KeySpec keys[] = {
            "of the disc; below 0.5 in plane strain"),
     choice("deformation", "plane", "stress | strain", "\"stress\"",
            "plane stress or plane strain of the disc"),
+    choice("deformation", "particle_volume", "disc | cell", "\"disc\"",
+           "the volume of the mean stress: of the disc (published), or with its share of the voids"),
 
     choice("boundary", "top_bottom", "free | periodic", "\"free\"",
            "free edges: a bar; periodic: an infinitely wide strip"),

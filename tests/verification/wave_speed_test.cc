@@ -29,7 +29,7 @@ const test::Law& law_of(Model model) {
 /// The measured speed of a case, which is a failure of the test where there is none.
 double measured_speed(const StripCampaign& s, const StripCase& c, double expected) {
   const DemRun run = run_scene(scene_of(scene_text(s, c, expected), id_of(c)), {expected, {}});
-  EXPECT_FALSE(run.result.divergence) << id_of(c);
+  EXPECT_FALSE(run.result.breakdown) << id_of(c);
   if (!run.measurement || !run.measurement->speed.speed.ok()) {
     ADD_FAILURE() << id_of(c) << ": no speed";
     return std::nan("");

@@ -176,8 +176,6 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"682", "682\nwalls = \"flat\"",
                 "assembly.walls = \"flat\": not built yet; use walls = \"periodic\""},
-        Mistake{"normal_stiffness = 1e10", "contact_modulus = \"20 GPa\"",
-                "not built yet; use normal_stiffness"},
         Mistake{"", "[time]\nintegrator = \"exact\"\n", "not built yet; use integrator = \"verlet\""}));
 
 TEST(SceneErrors, PlaneStressTakesWhatPlaneStrainCannot) {
