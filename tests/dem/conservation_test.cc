@@ -282,7 +282,8 @@ TEST(Reciprocity, HoldsForSymmetricSchemesOnly) {
     const bool symmetric = m.deformation.correction != Correction::normal || !m.contact.has_rotation() || !m.deformation.active();
     const double violation = reciprocity_violation(a, m);
     if (symmetric) {
-      EXPECT_LT(violation, 1e-11) << m.name;
+      // Conjugate gradients are symmetric up to their residual, here 1e-10 of the strains.
+      EXPECT_LT(violation, m.deformation.solver == StrainSolver::polynomial ? 1e-11 : 1e-9) << m.name;
     } else {
       EXPECT_GT(violation, 1e-3) << m.name;
     }
