@@ -1,0 +1,45 @@
+#include "dem/spectra/extreme_eigenvalues.h"
+
+#include <Spectra/GenEigsSolver.h>
+#include <Spectra/SymEigsSolver.h>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace ddem {
+namespace {
+
+constexpr Eigen::Index kMostIterations = 2000;
+constexpr double kResidual = 1e-5;
+
+void require_size(const LinearOperator& op, Eigen::Index least, const char* what) {
+  if (op.size < least) throw std::invalid_argument(std::string(what) + ": too few unknowns");
+}
+
+void require_success(Spectra::CompInfo info, const char* what) {
+  if (info != Spectra::CompInfo::Successful) {
+    throw std::runtime_error(std::string(what) + ": the eigenvalue iteration did not converge");
+  }
+}
+
+}  // namespace
+
+double largest_eigenvalue(LinearOperator op, const char* what) {
+  require_size(op, 3, what);
+  Spectra::SymEigsSolver<LinearOperator> solver(op, 1, std::min<Eigen::Index>(op.size, 40));
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestAlge, kMostIterations, kResidual);
+  require_success(solver.info(), what);
+  return solver.eigenvalues()[0];
+}
+
+double largest_magnitude(LinearOperator op, const char* what) {
+  require_size(op, 6, what);
+  Spectra::GenEigsSolver<LinearOperator> solver(op, 2, std::min<Eigen::Index>(op.size, 60));
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, kMostIterations, kResidual);
+  require_success(solver.info(), what);
+  return std::abs(solver.eigenvalues()[0]);
+}
+
+}  // namespace ddem

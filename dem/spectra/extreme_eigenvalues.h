@@ -1,0 +1,29 @@
+#pragma once
+// Extreme eigenvalues of operators that are given as functions, by Lanczos and Arnoldi iteration.
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace ddem {
+
+struct LinearOperator {
+  using Scalar = double;
+  Eigen::Index size;
+  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> apply;
+
+  Eigen::Index rows() const { return size; }
+  Eigen::Index cols() const { return size; }
+  void perform_op(const double* x, double* y) const {
+    Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
+  }
+};
+
+/// Largest eigenvalue of a symmetric operator. The residual is r = 1e-5 of the eigenvalue at most, and the eigenvalue then
+/// right to about r^2 or better. `what` names it in errors: throws std::invalid_argument for fewer than three unknowns,
+/// std::runtime_error if the iteration does not converge.
+double largest_eigenvalue(LinearOperator op, const char* what);
+
+/// Largest magnitude of the eigenvalues of any operator; residual 1e-5 of it. Needs six unknowns; errors as above.
+double largest_magnitude(LinearOperator op, const char* what);
+
+}  // namespace ddem
