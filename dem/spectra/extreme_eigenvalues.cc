@@ -42,4 +42,18 @@ double largest_magnitude(LinearOperator op, const char* what) {
   return std::abs(solver.eigenvalues()[0]);
 }
 
+std::vector<EigenPair> outstanding_eigenvectors(LinearOperator op) {
+  constexpr Eigen::Index restarts = 8, basis = 12;
+  constexpr double residual = 1e-3;
+  require_size(op, basis, "outstanding eigenvalues");
+  Spectra::GenEigsSolver<LinearOperator> solver(op, 2, basis);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, restarts, residual);
+  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  std::vector<EigenPair> pairs;
+  for (Eigen::Index k = 0; k < values.size(); ++k) pairs.push_back({values[k], vectors.col(k)});
+  return pairs;
+}
+
 }  // namespace ddem

@@ -2,7 +2,9 @@
 // Extreme eigenvalues of operators that are given as functions, by Lanczos and Arnoldi iteration.
 
 #include <Eigen/Core>
+#include <complex>
 #include <functional>
+#include <vector>
 
 namespace ddem {
 
@@ -25,5 +27,14 @@ double largest_eigenvalue(LinearOperator op, const char* what);
 
 /// Largest magnitude of the eigenvalues of any operator; residual 1e-5 of it. Needs six unknowns; errors as above.
 double largest_magnitude(LinearOperator op, const char* what);
+
+struct EigenPair {
+  std::complex<double> value;
+  Eigen::VectorXcd vector;
+};
+
+/// Pairs of largest magnitude of an operator that is dear to apply, as far as they stand out of the rest: at most two, and
+/// none if no one has converged to 1e-3 within 8 restarts (some 70 applications).
+std::vector<EigenPair> outstanding_eigenvectors(LinearOperator op);
 
 }  // namespace ddem

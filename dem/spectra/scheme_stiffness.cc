@@ -52,6 +52,19 @@ Eigen::VectorXd apply_series(const std::vector<double>& series, double high, con
 
 }  // namespace
 
+Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
+  Eigen::VectorXd s = op.inverse_mass.cwiseSqrt();
+  const auto hold = [&](const std::vector<std::uint8_t>& mask, int component) {
+    for (std::size_t p = 0; p < mask.size(); ++p) {
+      if (mask[p]) s[op.dofs_per_disc * static_cast<Eigen::Index>(p) + component] = 0.0;
+    }
+  };
+  hold(held.x, 0);
+  hold(held.y, 1);
+  if (op.dofs_per_disc == 3) hold(held.theta, 2);
+  return s;
+}
+
 SparseMatrix strain_coupling(const Operators& op) { return op.stress * op.stiffness.asDiagonal() * op.strain_overlap; }
 
 StrainIteration::StrainIteration(const Operators& op) : coupling_(strain_coupling(op)), factor_(op.strain_stiffness) {}

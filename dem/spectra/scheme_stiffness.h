@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "dem/statics/operators.h"
+#include "dem/statics/static_solver.h"
 
 namespace ddem {
 
@@ -31,6 +32,9 @@ class SchemeStiffness {
   const Operators* op_;
   Strains strains_;  ///< Q; empty for plain DEM
 };
+
+/// M^-1/2, zero where held.
+Eigen::VectorXd mass_scaling(const Operators& operators, const HeldDofs& held);
 
 /// S K G.
 SparseMatrix strain_coupling(const Operators& operators);

@@ -11,20 +11,6 @@ namespace {
 
 constexpr double kSoftnessAccuracy = 1e-3;
 
-/// M^-1/2, zero where held.
-Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
-  Eigen::VectorXd s = op.inverse_mass.cwiseSqrt();
-  const auto hold = [&](const std::vector<std::uint8_t>& mask, int component) {
-    for (std::size_t p = 0; p < mask.size(); ++p) {
-      if (mask[p]) s[op.dofs_per_disc * static_cast<Eigen::Index>(p) + component] = 0.0;
-    }
-  };
-  hold(held.x, 0);
-  hold(held.y, 1);
-  if (op.dofs_per_disc == 3) hold(held.theta, 2);
-  return s;
-}
-
 /// Root of the largest eigenvalue of M^-1 times that stiffness.
 double largest_frequency_of(const Operators& op, const SchemeStiffness& stiffness, const HeldDofs& held, const char* what) {
   const Eigen::VectorXd s = mass_scaling(op, held);
