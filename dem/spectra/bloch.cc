@@ -116,14 +116,36 @@ HexagonalBloch::Matrix HexagonalBloch::converged_stiffness(const Cell& c) const 
   return c.overlap.adjoint() * (kc - kg * inner.partialPivLu().solve(c.stress * kc));
 }
 
-Eigen::VectorXcd HexagonalBloch::squared_frequencies(WaveVector k) const {
+HexagonalBloch::Matrix HexagonalBloch::scaled_stiffness(WaveVector k) const {
   const Eigen::VectorXd s = inverse_mass_.cwiseSqrt();
-  const Matrix a = s.asDiagonal() * converged_stiffness(cell(k)) * s.asDiagonal();
-  const bool energy = !deformation_.active() || rows_ == 1 || deformation_.correction != Correction::normal;
-  if (!energy) return eigenvalues(a);
+  return s.asDiagonal() * converged_stiffness(cell(k)) * s.asDiagonal();
+}
+
+bool HexagonalBloch::conserves() const {
+  return !deformation_.active() || rows_ == 1 || deformation_.correction != Correction::normal;
+}
+
+Eigen::VectorXcd HexagonalBloch::squared_frequencies(WaveVector k) const {
+  const Matrix a = scaled_stiffness(k);
+  if (!conserves()) return eigenvalues(a);
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (a + a.adjoint()), Eigen::EigenvaluesOnly);
   if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvalues did not converge");
   return solver.eigenvalues().cwiseMax(0.0).cast<Complex>();
+}
+
+std::vector<Branch> HexagonalBloch::branches(WaveVector k) const {
+  const Eigen::ComplexEigenSolver<Matrix> solver(scaled_stiffness(k));
+  if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvectors did not converge");
+  std::vector<Branch> result;
+  for (int b = 0; b < dofs_; ++b) {
+    const Complex squared = solver.eigenvalues()[b];
+    // Round-off of an eigenvalue that an energy makes real and not negative.
+    const Complex omega = conserves() ? std::sqrt(std::max(0.0, squared.real())) : std::sqrt(squared);
+    result.push_back({omega, solver.eigenvectors().col(b).normalized()});
+  }
+  std::sort(result.begin(), result.end(),
+            [](const Branch& a, const Branch& b) { return a.frequency.real() < b.frequency.real(); });
+  return result;
 }
 
 std::vector<Complex> HexagonalBloch::frequencies(WaveVector k) const {

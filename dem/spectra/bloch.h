@@ -32,6 +32,12 @@ struct WaveVector {
   double x = 0.0, y = 0.0;
 };
 
+/// A free wave: its angular frequency (rad/s) and its motion (u_x, u_y, r theta) per root of the energy, |motion| = 1.
+struct Branch {
+  std::complex<double> frequency;
+  Eigen::VectorXcd motion;
+};
+
 /// Where in the zone of wave vectors the scheme grows most.
 struct WorstWave {
   double growth = 0.0;  ///< |z| - 1 of a step, negative where every wave decays
@@ -50,6 +56,9 @@ class HexagonalBloch {
   /// degree of freedom, the slowest two being S and P at long waves. Real for corrections that derive from an energy; a
   /// pair of complex ones flutters.
   std::vector<std::complex<double>> frequencies(WaveVector k) const;
+
+  /// The same with their motions, which tell shear, longitudinal and rotational waves apart.
+  std::vector<Branch> branches(WaveVector k) const;
 
   /// Factors z of one step `dt` (s): two a degree of freedom, and three of the strains for the lagged scheme.
   std::vector<std::complex<double>> multipliers(WaveVector k, double dt) const;
@@ -76,6 +85,8 @@ class HexagonalBloch {
   Cell cell(WaveVector k) const;
   Matrix converged_stiffness(const Cell& c) const;
   Matrix lagged_map(const Cell& c, double dt) const;
+  Matrix scaled_stiffness(WaveVector k) const;  ///< M^-1/2 K_eff M^-1/2
+  bool conserves() const;
   Eigen::VectorXcd squared_frequencies(WaveVector k) const;
 
   HexagonalLattice lattice_;

@@ -43,7 +43,7 @@ double largest_magnitude(LinearOperator op, const char* what) {
 }
 
 std::vector<EigenPair> outstanding_eigenvectors(LinearOperator op) {
-  constexpr Eigen::Index restarts = 8, basis = 12;
+  constexpr Eigen::Index restarts = 4, basis = 12;
   constexpr double residual = 1e-3;
   require_size(op, basis, "outstanding eigenvalues");
   Spectra::GenEigsSolver<LinearOperator> solver(op, 2, basis);

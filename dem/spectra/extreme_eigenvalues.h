@@ -34,7 +34,7 @@ struct EigenPair {
 };
 
 /// Pairs of largest magnitude of an operator that is dear to apply, as far as they stand out of the rest: at most two, and
-/// none if no one has converged to 1e-3 within 8 restarts (some 70 applications).
+/// none if no one has converged to 1e-3 within 4 restarts (some 40 applications).
 std::vector<EigenPair> outstanding_eigenvectors(LinearOperator op);
 
 }  // namespace ddem

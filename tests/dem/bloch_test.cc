@@ -82,6 +82,19 @@ TEST(BlochFrequencies, DispersionAlongTheRows) {
   }
 }
 
+TEST(BlochBranches, KnowTheirPolarisation) {
+  // Along a row, mirror symmetry splits longitudinal waves from shear and rotation.
+  const HexagonalBloch bloch(lattice(), contact(0.5), strains(Scheme::implicit, Correction::full));
+  const WaveVector k{0.3 / kRadius, 0.0};
+  const auto branches = bloch.branches(k);
+  const auto frequencies = bloch.frequencies(k);
+  ASSERT_EQ(branches.size(), 3u);
+  for (std::size_t b = 0; b < 3; ++b) EXPECT_NEAR(branches[b].frequency.real() / frequencies[b].real(), 1.0, 1e-10);
+  EXPECT_GT(std::norm(branches[0].motion[1]), 0.9);
+  EXPECT_NEAR(std::norm(branches[1].motion[0]), 1.0, 1e-10);
+  EXPECT_GT(std::norm(branches[2].motion[2]), 0.9);
+}
+
 constexpr int kCells = 12;
 
 Assembly periodic_cell() {
