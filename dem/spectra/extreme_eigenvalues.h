@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <functional>
-#include <vector>
+#include <optional>
 
 namespace ddem {
 
@@ -33,8 +33,10 @@ struct EigenPair {
   Eigen::VectorXcd vector;
 };
 
-/// Pairs of largest magnitude of an operator that is dear to apply, as far as they stand out of the rest: at most two, and
-/// none if no one has converged to 1e-3 within 4 restarts (some 40 applications).
-std::vector<EigenPair> outstanding_eigenvectors(LinearOperator op);
+/// The pair of largest magnitude of an operator that is dear to apply and whose other eigenvalues lie within the unit
+/// circle: Arnoldi's iteration without restarts, from a fixed start. None if after 16 applications no Ritz value lies
+/// beyond `outside` (> 1), else as many as bring its residual to 1e-3, 60 at most. Needs 60 unknowns.
+/// Spectra's iteration answers only what has converged, and would restart in vain where nothing stands out.
+std::optional<EigenPair> outstanding_eigenvector(const LinearOperator& op, double outside);
 
 }  // namespace ddem

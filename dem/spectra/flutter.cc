@@ -52,11 +52,7 @@ FlutterSearch find_flutter(const Assembly& assembly, const ContactParameters& co
                            return s.cwiseProduct(stiffness.apply(s.cwiseProduct(x)));
                          }};
   const LinearOperator steps{s.size(), [&](const Eigen::VectorXd& x) { return propagate(a, dt, x); }};
-  for (const auto& [value, vector] : outstanding_eigenvectors(steps)) {
-    if (std::abs(value) < kOutside) continue;
-    const std::complex<double> omega = frequency_of(a, vector);
-    if (!search.frequency || omega.imag() > search.frequency->imag()) search.frequency = omega;
-  }
+  if (const auto pair = outstanding_eigenvector(steps, kOutside)) search.frequency = frequency_of(a, pair->vector);
   return search;
 }
 

@@ -13,7 +13,7 @@ namespace ddem {
 
 struct FlutterSearch {
   double largest_frequency = 0.0;  ///< omega_max with converged strains, rad/s
-  /// Of the fastest growing vibration: it grows as exp(Im(omega) t). Right to 1 % in the imaginary part.
+  /// Of the fastest growing vibration: it grows as exp(Im(omega) t). Right to 2 % in the imaginary part.
   std::optional<std::complex<double>> frequency;
   double detectable = 0.0;  ///< growth below this share of omega_max is not seen
 };
@@ -21,7 +21,7 @@ struct FlutterSearch {
 /// Looks for flutter with converged strains. A dense eigenproblem of 682 discs would take half a minute, and 27 times
 /// that for three times the discs; instead Arnoldi's iteration is applied to 3000 steps of leapfrog from rest,
 /// u -> T_3000(1 - dt^2 A/2) u with A = M^-1 K_eff: real frequencies stay within [-1, 1] there, and what grows stands out.
-/// Proportional to the number of discs, some 5 s for 682. Corrections with an energy are answered at once.
+/// Proportional to the number of discs, some 10 s for 682. Corrections with an energy are answered at once.
 FlutterSearch find_flutter(const Assembly& assembly, const ContactParameters& contact,
                            const DeformationParameters& deformation, const HeldDofs& held);
 

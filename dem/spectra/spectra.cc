@@ -60,6 +60,7 @@ double flip_limit_step(const Assembly& a, const ContactParameters& contact, cons
 
 CriticalStep critical_step(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
                            const HeldDofs& held) {
+  if (!deformation.active()) return {StepBound::oscillation, 2.0 / largest_frequency(a, contact, held)};
   if (deformation.scheme != Scheme::lagged) {
     return {StepBound::oscillation, 2.0 / largest_converged_frequency(a, contact, deformation, held)};
   }

@@ -1,7 +1,7 @@
 // ddem stability SCENE.toml
 #include <fmt/format.h>
 
-#include <cmath>
+#include <charconv>
 #include <memory>
 
 #include "harness/cli/commands.h"
@@ -22,6 +22,12 @@ struct Options {
 std::vector<double> lengths_of(const std::vector<std::string>& texts) {
   std::vector<double> values;
   for (const std::string& text : texts) {
+    double metres = 0.0;
+    const char* const end = text.data() + text.size();
+    if (const auto [stop, problem] = std::from_chars(text.data(), end, metres); problem == std::errc{} && stop == end) {
+      values.push_back(metres);
+      continue;
+    }
     const Quantity q = parse_quantity(text, Dimension::length);
     if (!q.si) throw InputError(fmt::format("--wavelength {}: {}; write {}", text, q.problem, quantity_examples(Dimension::length)));
     values.push_back(*q.si);
@@ -74,7 +80,7 @@ void print_growth_without_energy(const SceneStability& s) {
   } else if (s.flutter) {
     print_row("flutter", "none found", fmt::format("down to growth rates of {:.2g} omega_max", s.flutter->detectable));
   } else {
-    print_row("flutter", "not sought", "too many discs");
+    print_row("flutter", "not sought", s.lattice ? "the hexagonal lattice has none" : "too many discs");
   }
   if (s.noise) {
     print_row("noise in a run", s.noise->diverged ? "diverged" : fmt::format("{:+.3g}", s.noise->growth),

@@ -10,14 +10,12 @@
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
-#include "harness/run/scene_moduli.h"
 
 namespace ddem::harness {
 namespace {
 
 constexpr std::size_t kLargestFlutterSearch = 5000;  // discs; a minute
 constexpr double kNoGrowth = 1e-9;                   // as HexagonalBloch
-constexpr double kModulusStep = 1e-3;                // of ln E_p, in central differences
 
 double scene_step(const Scene& scene, double dem_critical) {
   if (const auto* seconds = std::get_if<StepSeconds>(&scene.time.step)) return seconds->seconds;
@@ -40,62 +38,6 @@ HexagonalBloch bloch_of(const Scene& scene, const ddem::Assembly& a, const Conta
   return {{a.packing.radius.front(), a.density, a.thickness, angle}, uniform, deformation};
 }
 
-const char* name_of(const Branch& branch) {
-  Eigen::Index largest = 0;
-  branch.motion.cwiseAbs().maxCoeff(&largest);
-  return largest == 0 ? "p" : largest == 1 ? "shear" : "rotation";
-}
-
-std::vector<WaveGrowth> lattice_waves(const HexagonalBloch& bloch, double dt, const std::vector<double>& wavelengths) {
-  std::vector<WaveGrowth> waves;
-  for (const double wavelength : wavelengths) {
-    const WaveVector k{2.0 * std::numbers::pi / wavelength, 0.0};
-    for (const Branch& branch : bloch.branches(k)) {
-      const double omega = branch.frequency.real();
-      waves.push_back({name_of(branch), wavelength, omega, std::abs(bloch.multiplier_of(k, dt, omega)) - 1.0, true});
-    }
-  }
-  return waves;
-}
-
-/// theory section 3: |z| - 1 = -(omega dt)(omega tau)/2, tau = dt b r^(s-1)/(1 - r^s), r = 1 - w - w b.
-double lag_growth(const DeformationParameters& d, double omega_dt, double b) {
-  if (d.scheme != Scheme::lagged) return 0.0;
-  const double r = 1.0 - d.relaxation - d.relaxation * b;
-  return -0.5 * omega_dt * omega_dt * b * std::pow(r, d.evaluations - 1) / (1.0 - std::pow(r, d.evaluations));
-}
-
-/// Long waves of any assembly. The stiffness that a wave meets with strains that lag by one evaluation is the converged
-/// one with z E_p in place of E_p, hence d ln C / d ln E_p = b/(1 + b) is the share of the strains in its energy; exact in
-/// first order for one evaluation, and with the mean b of the wave for more.
-std::vector<WaveGrowth> static_waves(const Scene& scene, double dt, const std::vector<double>& wavelengths) {
-  const auto speeds = [&](double factor) {
-    Scene changed = scene;
-    if (changed.deformation) changed.deformation->young_modulus *= factor;
-    const SceneModuli m = scene_moduli(changed);
-    const bool periodic = scene.assembly.periodic.y;
-    return std::pair{m.speed_of(Wave::shear, periodic), m.speed_of(Wave::longitudinal, periodic)};
-  };
-  const DeformationParameters d = deformation_parameters(scene);
-  const auto now = speeds(1.0);
-  const bool lagged = d.scheme == Scheme::lagged;
-  const auto soft = lagged ? speeds(std::exp(-kModulusStep)) : now, stiff = lagged ? speeds(std::exp(kModulusStep)) : now;
-  std::vector<WaveGrowth> waves;
-  const auto add = [&](const char* name, double wavelength, const auto& speed) {
-    if (!(now.*speed)) return;
-    const double omega = 2.0 * std::numbers::pi / wavelength * *(now.*speed);
-    // C goes with the square of the speed.
-    const double share = lagged ? 2.0 * std::log(*(stiff.*speed) / *(soft.*speed)) / (2.0 * kModulusStep) : 0.0;
-    waves.push_back({name, wavelength, omega, lag_growth(d, omega * dt, share / (1.0 - share)), false});
-  };
-  using Speeds = std::remove_cvref_t<decltype(now)>;
-  for (const double wavelength : wavelengths) {
-    add("shear", wavelength, &Speeds::first);
-    add(scene.assembly.periodic.y ? "p" : "bar", wavelength, &Speeds::second);
-  }
-  return waves;
-}
-
 /// Four radii is the shortest wave that discs in a row can carry.
 std::vector<double> check_wavelengths(const ddem::Assembly& a, std::vector<double> wavelengths) {
   const double shortest = 4.0 * mean_radius(a.packing), length = a.packing.length;
@@ -112,7 +54,7 @@ std::vector<double> check_wavelengths(const ddem::Assembly& a, std::vector<doubl
   return wavelengths;
 }
 
-void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParameters& contact, const HeldDofs& held) {
+void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParameters& contact, const HeldDofs& held, bool hexagonal) {
   s.critical = critical_step(a, contact, s.deformation, held);
   if (!s.deformation.active()) return;
   s.softness = normal_stiffness(a, contact) / (s.deformation.young_modulus * a.thickness);
@@ -124,7 +66,7 @@ void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParame
     if (factor) s.softness_limit_at_step = *factor * s.softness;
   }
   if (s.has_energy()) return;
-  if (a.size() <= kLargestFlutterSearch) s.flutter = find_flutter(a, contact, s.deformation, held);
+  if (a.size() <= kLargestFlutterSearch && !hexagonal) s.flutter = find_flutter(a, contact, s.deformation, held);
   SimulationInput in;
   in.contact = contact;
   in.contact.kinematics = ddem::Kinematics::linear;
@@ -135,12 +77,6 @@ void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParame
 }
 
 }  // namespace
-
-double WaveGrowth::phase_speed() const { return frequency * wavelength / (2.0 * std::numbers::pi); }
-
-double WaveGrowth::growth_per_period(double time_step) const {
-  return std::expm1(std::log1p(growth) * 2.0 * std::numbers::pi / (frequency * time_step));
-}
 
 bool SceneStability::has_energy() const {
   return !deformation.active() || stiffness_ratio == 0.0 || deformation.correction != ddem::Correction::normal;
@@ -181,8 +117,9 @@ SceneStability scene_stability(const Scene& scene, std::vector<double> wavelengt
   try {
     s.dem_critical_step = 2.0 / largest_frequency(a, contact, held);
     s.time_step = scene_step(scene, s.dem_critical_step);
-    find_limits(s, a, contact, held);
-    if (std::holds_alternative<HexagonalPacking>(scene.assembly.packing)) {
+    const bool hexagonal = std::holds_alternative<HexagonalPacking>(scene.assembly.packing);
+    find_limits(s, a, contact, held, hexagonal);
+    if (hexagonal) {
       const HexagonalBloch bloch = bloch_of(scene, a, contact, s.deformation);
       s.lattice = {bloch.worst_wave(s.time_step), bloch.largest_stable_step()};
       s.waves = lattice_waves(bloch, s.time_step, chosen);

@@ -5,26 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "dem/spectra/bloch.h"
 #include "dem/spectra/flutter.h"
 #include "dem/spectra/spectra.h"
 #include "harness/run/noise_run.h"
+#include "harness/run/wave_growth.h"
 #include "harness/scene/scene.h"
 
 namespace ddem::harness {
-
-/// What the scheme does to a wave along x at the scene's step.
-struct WaveGrowth {
-  std::string wave;        ///< shear, p (no lateral strain), bar (free strip), rotation
-  double wavelength = 0.0; ///< m
-  double frequency = 0.0;  ///< angular, rad/s
-  double growth = 0.0;     ///< |z| - 1 of a step
-  bool exact = false;      ///< a Bloch wave of the infinite lattice; else first order in omega dt, from static moduli
-
-  double phase_speed() const;
-  /// |z|^steps of one period, less 1.
-  double growth_per_period(double time_step) const;
-};
 
 /// The infinite lattice of the scene's discs, all wave vectors.
 struct LatticeStability {
@@ -43,7 +30,7 @@ struct SceneStability {
   double radius_limit = 0.0;                  ///< lagged: 2/w - 1
   std::optional<double> softness_limit;       ///< lagged: of k_n/(E_p h), at vanishing steps
   std::optional<double> softness_limit_at_step;
-  std::optional<FlutterSearch> flutter;       ///< N with shear stiffness, in assemblies that are not too large
+  std::optional<FlutterSearch> flutter;       ///< N with shear stiffness; not for lattices nor many discs
   std::optional<NoiseRun> noise;              ///< N with shear stiffness
   std::optional<LatticeStability> lattice;    ///< hexagonal packings
   std::vector<WaveGrowth> waves;

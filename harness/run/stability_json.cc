@@ -53,7 +53,7 @@ void add_softness(Json& j, const SceneStability& s) {
 
 void add_growth_without_energy(Json& j, const SceneStability& s) {
   const std::string energy = "none: the scheme derives from an energy";
-  j["flutter"] = status(s.has_energy() ? energy : "not looked for: too many discs");
+  j["flutter"] = status(s.has_energy() ? energy : s.lattice ? "the hexagonal lattice has none" : "not looked for: too many discs");
   if (s.flutter) {
     j["flutter"] = {{"detectable", s.flutter->detectable}};
     if (s.flutter->frequency) {
