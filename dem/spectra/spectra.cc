@@ -1,56 +1,34 @@
 #include "dem/spectra/spectra.h"
 
-#include <Eigen/SparseCholesky>
-#include <Spectra/SymEigsSolver.h>
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
+
+#include "dem/spectra/extreme_eigenvalues.h"
+#include "dem/spectra/scheme_stiffness.h"
 
 namespace ddem {
 namespace {
 
-/// A symmetric operator for Spectra, given as a function.
-struct SymmetricOperator {
-  using Scalar = double;
-  Eigen::Index size;
-  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> apply;
+constexpr double kSoftnessAccuracy = 1e-3;
 
-  Eigen::Index rows() const { return size; }
-  Eigen::Index cols() const { return size; }
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
-  }
-};
-
-/// The residual is r = 1e-5 of the eigenvalue at most, and the eigenvalue then right to about r^2 or better.
-double largest_eigenvalue(SymmetricOperator op, const char* what) {
-  const Eigen::Index basis = std::min<Eigen::Index>(op.size, 40);
-  if (op.size < 3) throw std::invalid_argument(std::string(what) + ": too few unknowns");
-  Spectra::SymEigsSolver<SymmetricOperator> solver(op, 1, basis);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge, 2000, 1e-5);
-  if (solver.info() != Spectra::CompInfo::Successful) {
-    throw std::runtime_error(std::string(what) + ": the Lanczos iteration did not converge");
-  }
-  return solver.eigenvalues()[0];
+/// Root of the largest eigenvalue of M^-1 times that stiffness.
+double largest_frequency_of(const Operators& op, const SchemeStiffness& stiffness, const HeldDofs& held, const char* what) {
+  const Eigen::VectorXd s = mass_scaling(op, held);
+  const LinearOperator scaled{s.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+                                return s.cwiseProduct(stiffness.apply(s.cwiseProduct(x)));
+                              }};
+  return std::sqrt(op.symmetric ? largest_eigenvalue(scaled, what) : largest_magnitude(scaled, what));
 }
 
-/// M^-1/2, zero where held.
-Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
-  Eigen::VectorXd s = op.inverse_mass.cwiseSqrt();
-  const auto hold = [&](const std::vector<std::uint8_t>& mask, int component) {
-    for (std::size_t p = 0; p < mask.size(); ++p) {
-      if (mask[p]) s[op.dofs_per_disc * static_cast<Eigen::Index>(p) + component] = 0.0;
-    }
-  };
-  hold(held.x, 0);
-  hold(held.y, 1);
-  if (op.dofs_per_disc == 3) hold(held.theta, 2);
-  return s;
+double radius_of(const Operators& op) {
+  const StrainIteration t(op);
+  return largest_eigenvalue({t.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return t.apply(x); }}, "fixed-point radius");
 }
 
-using Cholesky = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+/// r = 1 - w - w b is negative for the largest b: an even number of evaluations then ends beyond the converged strain.
+bool feeds(const DeformationParameters& d, double radius) {
+  return d.evaluations % 2 == 0 && radius > (1.0 - d.relaxation) / d.relaxation;
+}
 
 }  // namespace
 
@@ -63,40 +41,54 @@ double largest_frequency(const Assembly& a, const ContactParameters& contact, co
   return std::sqrt(lambda);
 }
 
+double largest_converged_frequency(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
+                                   const HeldDofs& held) {
+  const Operators op = make_operators(a, contact, deformation);
+  return largest_frequency_of(op, SchemeStiffness::converged(op), held, "critical time step with converged strains");
+}
+
 double fixed_point_radius(const Assembly& a, const ContactParameters& contact,
                           const DeformationParameters& deformation) {
-  const Operators op = make_operators(a, contact, deformation);
-  const SparseMatrix skg = op.stress * op.stiffness.asDiagonal() * op.strain_overlap;
-  const Cholesky vc(op.strain_stiffness);  // 3 x 3 blocks
-  const double radius = largest_eigenvalue({skg.rows(),
-                                            [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-                                              const Eigen::VectorXd y = skg * vc.matrixU().solve(x);
-                                              return vc.matrixL().solve(y);
-                                            }},
-                                           "fixed-point radius");
-  return radius;
+  return radius_of(make_operators(a, contact, deformation));
 }
 
 double flip_limit_step(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
                        const HeldDofs& held) {
   const Operators op = make_operators(a, contact, deformation);
-  if (!op.symmetric) throw std::invalid_argument("the flip limit needs a correction that derives from an energy");
-  const SparseMatrix kg = op.stiffness.asDiagonal() * op.strain_overlap;
-  // (K^-1 - B)^-1 = K + K G (V C - G^T K G)^-1 G^T K by Woodbury.
-  const Eigen::SimplicialLLT<SparseMatrix> inner(SparseMatrix(op.strain_stiffness - op.stress * kg));
-  if (inner.info() != Eigen::Success) {
-    throw std::invalid_argument("the lagged strains do not converge (fixed-point radius above 1): no flip limit");
+  return 2.0 / largest_frequency_of(op, SchemeStiffness::flip(op, deformation, radius_of(op)), held, "flip limit");
+}
+
+CriticalStep critical_step(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
+                           const HeldDofs& held) {
+  if (!deformation.active()) return {StepBound::oscillation, 2.0 / largest_frequency(a, contact, held)};
+  if (deformation.scheme != Scheme::lagged) {
+    return {StepBound::oscillation, 2.0 / largest_converged_frequency(a, contact, deformation, held)};
   }
-  const Eigen::VectorXd s = mass_scaling(op, held);
-  const double lambda = largest_eigenvalue(
-      {op.overlap.cols(),
-       [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-         const Eigen::VectorXd force = op.stiffness.cwiseProduct(op.overlap * s.cwiseProduct(x));
-         const Eigen::VectorXd correction = kg * inner.solve(op.strain_overlap.transpose() * force);
-         return s.cwiseProduct(op.overlap.transpose() * (force + correction));
-       }},
-      "flip limit");
-  return 2.0 / std::sqrt(lambda);
+  const double radius = fixed_point_radius(a, contact, deformation);
+  if (radius >= 2.0 / deformation.relaxation - 1.0) return {StepBound::fixed_point, std::nullopt};
+  if (feeds(deformation, radius)) return {StepBound::feeding, std::nullopt};
+  return {StepBound::flip, flip_limit_step(a, contact, deformation, held)};
+}
+
+std::optional<double> stable_softness_factor(const Assembly& a, const ContactParameters& contact,
+                                             const DeformationParameters& deformation, const HeldDofs& held, double dt) {
+  if (deformation.scheme != Scheme::lagged) throw std::invalid_argument("only the lagged scheme limits the softness of the discs");
+  const double w = deformation.relaxation;
+  const double reach = deformation.evaluations % 2 == 0 ? (1.0 - w) / w : 2.0 / w - 1.0;
+  const double fixed_point = reach / fixed_point_radius(a, contact, deformation);
+  const auto stable = [&](double factor) {
+    DeformationParameters d = deformation;
+    d.young_modulus /= factor;
+    return dt <= flip_limit_step(a, contact, d, held);
+  };
+  double high = fixed_point * (1.0 - kSoftnessAccuracy), low = kSoftnessAccuracy * high;
+  if (!(fixed_point > 0.0) || !stable(low)) return std::nullopt;
+  if (stable(high)) return fixed_point;
+  while (high - low > kSoftnessAccuracy * high) {
+    const double middle = 0.5 * (low + high);
+    (stable(middle) ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace ddem

@@ -1,5 +1,7 @@
 #pragma once
-// Extreme eigenvalues of an assembly's operators: the critical time step and the limits of the lagged scheme.
+// Extreme eigenvalues of an assembly's operators: critical time steps and the limits of each scheme.
+
+#include <optional>
 
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
@@ -11,15 +13,44 @@ namespace ddem {
 /// The critical step of leapfrog is 2 / omega_max. Relative accuracy 1e-6. Throws std::runtime_error if Lanczos fails.
 double largest_frequency(const Assembly& assembly, const ContactParameters& contact, const HeldDofs& held);
 
-/// Spectral radius of K B: the lagged strains converge only where it is below 1 (theory section 3). K B has the
-/// spectrum of (V C)^-1 S K G, which is symmetric for every correction: where S takes shear forces that G does not
-/// correct (N), they drop out of S K G.
+/// The same with converged strains, below that of rigid discs. For N with shear stiffness, which has no energy, the
+/// root of the eigenvalue of largest magnitude, which is real wherever the fastest mode does not flutter.
+double largest_converged_frequency(const Assembly& assembly, const ContactParameters& contact,
+                                   const DeformationParameters& deformation, const HeldDofs& held);
+
+/// Spectral radius of K B: the lagged strains converge only where it is below 2/w - 1, w the relaxation (theory section
+/// 3). It is proportional to k_n/E_p. K B has the spectrum of (V C)^-1 S K G, symmetric for every correction.
 double fixed_point_radius(const Assembly& assembly, const ContactParameters& contact,
                           const DeformationParameters& deformation);
 
-/// Largest step of the lagged scheme before the flip instability: dt^2 lambda_max(M^-1 C^T (K^-1 - B)^-1 C) = 4, for a
-/// scheme with symmetric B. Requires fixed_point_radius < 1, throws std::invalid_argument otherwise.
+/// Step at which the lagged scheme flips, i.e. the strains of successive steps alternate and grow: dt^2 times the
+/// largest eigenvalue of M^-1 times the stiffness that an alternating motion meets (scheme_stiffness.h) is 4. For one
+/// evaluation without relaxation that stiffness is C^T (K^-1 - B)^-1 C. Throws std::invalid_argument where the strains
+/// do not converge.
 double flip_limit_step(const Assembly& assembly, const ContactParameters& contact,
                        const DeformationParameters& deformation, const HeldDofs& held);
+
+/// What bounds the time step of a scheme.
+enum class StepBound {
+  oscillation,  ///< 2/omega_max of rigid discs or of converged strains
+  flip,         ///< flip_limit_step
+  fixed_point,  ///< no step: the lagged strains do not converge
+  feeding       ///< no step: an even number of evaluations feeds waves whose strains overshoot
+};
+
+struct CriticalStep {
+  StepBound bound = StepBound::oscillation;
+  std::optional<double> step;  ///< s
+};
+
+/// The sharp critical step of the very assembly and scheme. For N with shear stiffness it is the step at which the fast
+/// modes blow up: slow growth of others (flutter.h) is not in it.
+CriticalStep critical_step(const Assembly& assembly, const ContactParameters& contact,
+                           const DeformationParameters& deformation, const HeldDofs& held);
+
+/// The factor by which k_n/E_p may be multiplied before a step `dt` becomes unstable, right to 1e-3; lagged only. None
+/// where the step itself is beyond the critical one however stiff the discs, or the evaluations feed.
+std::optional<double> stable_softness_factor(const Assembly& assembly, const ContactParameters& contact,
+                                             const DeformationParameters& deformation, const HeldDofs& held, double dt);
 
 }  // namespace ddem

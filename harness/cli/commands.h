@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 void add_run_command(CLI::App& app, Action& action);
 void add_fem_command(CLI::App& app, Action& action);
 void add_moduli_command(CLI::App& app, Action& action);
+void add_stability_command(CLI::App& app, Action& action);
 void add_pack_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
 /// Commands that users may know of, but which are not built yet: they say so and exit with 2.

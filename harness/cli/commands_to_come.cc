@@ -7,8 +7,7 @@
 namespace ddem::harness {
 
 void add_commands_to_come(CLI::App& app, Action& action) {
-  for (const auto& [name, what] : {std::pair{"stability", "Sharp critical time step and stability limits of a scene"},
-                                   std::pair{"calibrate", "Contact parameters for target moduli"},
+  for (const auto& [name, what] : {std::pair{"calibrate", "Contact parameters for target moduli"},
                                    std::pair{"bench", "Run time against error"},
                                    std::pair{"report", "Render the report of a finished campaign again"},
                                    std::pair{"compare", "Compare a campaign with a baseline"}}) {

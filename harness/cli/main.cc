@@ -17,6 +17,7 @@ constexpr const char* kFooter = R"(Examples:
   ddem validate                          the strip of the paper: DEM, DDEM, finite elements; writes ddem-report/
   ddem run scene.toml --json             one simulation, its wave speed as JSON
   ddem moduli scene.toml                 static moduli and wave speeds of its assembly
+  ddem stability scene.toml              its critical step, limits and numerical damping
   ddem fem scene.toml --signals s.csv    the continuum model of the same strip
 
 Exit codes: 0 done, within tolerance; 1 a verdict failed; 2 wrong use or input;
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   add_run_command(app, action);
   add_fem_command(app, action);
   add_moduli_command(app, action);
+  add_stability_command(app, action);
   add_pack_command(app, action);
   add_commands_to_come(app, action);
   try {

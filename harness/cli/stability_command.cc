@@ -1,0 +1,142 @@
+// ddem stability SCENE.toml
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+#include "harness/cli/commands.h"
+#include "harness/cli/scene_argument.h"
+#include "harness/io/errors.h"
+#include "harness/run/run_json.h"
+#include "harness/scene/units.h"
+
+namespace ddem::harness {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> wavelengths;
+  bool json = false;
+};
+
+std::vector<double> lengths_of(const std::vector<std::string>& texts) {
+  std::vector<double> values;
+  for (const std::string& text : texts) {
+    double metres = 0.0;
+    const char* const end = text.data() + text.size();
+    if (const auto [stop, problem] = std::from_chars(text.data(), end, metres); problem == std::errc{} && stop == end) {
+      values.push_back(metres);
+      continue;
+    }
+    const Quantity q = parse_quantity(text, Dimension::length);
+    if (!q.si) throw InputError(fmt::format("--wavelength {}: {}; write {}", text, q.problem, quantity_examples(Dimension::length)));
+    values.push_back(*q.si);
+  }
+  return values;
+}
+
+void print_row(const char* what, const std::string& value, const std::string& meaning) {
+  fmt::print("{:<30} {:<13} {}\n", what, value, meaning);
+}
+
+std::string number(double value) { return fmt::format("{:.5g}", value); }
+
+void print_steps(const SceneStability& s) {
+  print_row("critical step of rigid discs", number(s.dem_critical_step) + " s", "2/omega_max of the bonded discs (Lanczos)");
+  const auto critical = [&](const std::string& why) {
+    print_row("critical step of the scheme", s.critical.step ? number(*s.critical.step) + " s" : "none",
+              s.critical.step ? fmt::format("{:.4g} of that: {}", *s.critical.step / s.dem_critical_step, why) : why);
+  };
+  switch (s.critical.bound) {
+    case StepBound::oscillation:
+      critical(s.deformation.active() ? "2/omega_max with converged strains, which soften the bonds" : "the same: plain DEM");
+      break;
+    case StepBound::flip: critical("above it the strains of successive steps alternate in sign and grow"); break;
+    case StepBound::fixed_point: critical("the strains do not settle at any step: stiffen the discs, or use scheme = \"implicit\""); break;
+    case StepBound::feeding: critical("an even number of evaluations overshoots and adds energy: use an odd one, or less relaxation"); break;
+  }
+}
+
+void print_softness(const SceneStability& s) {
+  if (!s.fixed_point_radius) return;
+  const bool lagged = s.deformation.scheme == Scheme::lagged;
+  print_row("spectral radius of K B", number(*s.fixed_point_radius),
+            lagged ? fmt::format("how much of a strain's error the next evaluation keeps; must stay below {:.4g}", s.radius_limit)
+                   : "how strongly strains answer strains; sets the number of iterations, but no limit");
+  print_row("k_n/E_p", number(s.softness), "softness of the discs");
+  if (!lagged) return;
+  print_row("largest stable k_n/E_p", number(*s.softness_limit), "at vanishing steps: the fixed point's limit");
+  print_row("   at this step", s.softness_limit_at_step ? number(*s.softness_limit_at_step) : "none",
+            s.softness_limit_at_step ? "a smaller step allows up to the number above" : "lower the step first");
+}
+
+void print_growth_without_energy(const SceneStability& s) {
+  if (s.has_energy()) return;
+  fmt::print("The normal-only correction with shear stiffness is the derivative of no energy: vibrations may grow by themselves.\n");
+  if (s.flutter && s.flutter->frequency) {
+    print_row("flutter", fmt::format("{:.3g} omega_max", s.flutter->frequency->imag() / s.flutter->largest_frequency),
+              fmt::format("growth rate of the fastest vibration with converged strains, at {:.4g} rad/s; {}", s.flutter->frequency->real(),
+                          s.deformation.scheme == Scheme::lagged ? "the lag's damping may hide it" : "at any step"));
+  } else if (s.flutter) {
+    print_row("flutter", "none found", fmt::format("down to growth rates of {:.2g} omega_max", s.flutter->detectable));
+  } else {
+    print_row("flutter", "not sought", s.lattice ? "the hexagonal lattice has none" : "too many discs");
+  }
+  if (s.noise) {
+    print_row("noise in a run", s.noise->diverged ? "diverged" : fmt::format("{:+.3g}", s.noise->growth),
+              fmt::format("growth a step after {} steps (below {:.2g} is none)", s.noise->steps, s.noise->resolution));
+  }
+}
+
+void print_waves(const SceneStability& s) {
+  if (s.lattice) {
+    const WorstWave& worst = s.lattice->worst;
+    print_row("infinite lattice", fmt::format("{:+.3g}", worst.growth),
+              fmt::format("largest |z| - 1 of all plane waves, at k = ({:.4g}, {:.4g}) 1/m", worst.wave.x, worst.wave.y));
+  }
+  if (s.waves.empty()) return;
+  fmt::print("\nWaves along x at this step ({}):\n", s.waves.front().exact ? "exact Bloch waves of the infinite lattice"
+                                                                           : "long waves, from static moduli, first order in the lag");
+  fmt::print("{:>14} {:>9} {:>14} {:>12} {:>14} {:>14}\n", "wavelength (m)", "wave", "omega (rad/s)", "speed (m/s)", "|z|-1 a step", "a period");
+  for (const WaveGrowth& w : s.waves) {
+    fmt::print("{:>14.5g} {:>9} {:>14.5g} {:>12.5g} {:>+14.3e} {:>+13.3f}%\n", w.wavelength, w.wave, w.frequency, w.phase_speed(), w.growth,
+               100.0 * w.growth_per_period(s.time_step));
+  }
+  if (s.deformation.scheme == Scheme::lagged) {
+    fmt::print("The lag acts as a viscosity of first order in the step: half the step, half the loss a period.\n");
+  }
+}
+
+int stability(const Options& o) {
+  const SceneStability s = scene_stability(load_scene(o.scene, Purpose::statics), lengths_of(o.wavelengths));
+  if (o.json) {
+    fmt::print("{}", to_text(stability_json(s)));
+    return static_cast<int>(ExitCode::done);
+  }
+  fmt::print("{} discs, {} bonds\n", s.discs, s.bonds);
+  print_steps(s);
+  print_softness(s);
+  print_growth_without_energy(s);
+  print_waves(s);
+  const auto instabilities = s.instabilities();
+  fmt::print("\nAt its step of {:.5g} s, {:.4g} of the critical step of rigid discs, the scene is {}\n", s.time_step,
+             s.time_step / s.dem_critical_step, instabilities.empty() ? "stable." : "UNSTABLE:");
+  for (const std::string& why : instabilities) fmt::print("  {}\n", why);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("stability", "Critical time step, stability limits and numerical damping of a scene");
+  command->footer("Computed from the very assembly and scheme, without running it. Waves of other lengths:\n"
+                  "ddem stability shear.toml --wavelength \"4 mm\" --wavelength \"2 mm\"");
+  command->add_option("SCENE", o->scene, "scene file (TOML); needs no load")->required();
+  command->add_option("--wavelength", o->wavelengths, "predict the damping or growth of waves of this length (m, or with a unit)")
+      ->allow_extra_args(false);
+  command->add_flag("--json", o->json, "print the result as JSON");
+  command->callback([o, &action] { action = [o] { return stability(*o); }; });
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,141 @@
+#include "harness/run/scene_stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "harness/io/errors.h"
+#include "harness/model/assemble.h"
+#include "harness/model/load.h"
+
+namespace ddem::harness {
+namespace {
+
+constexpr std::size_t kLargestFlutterSearch = 5000;  // discs; a minute
+constexpr double kNoGrowth = 1e-9;                   // as HexagonalBloch
+
+double scene_step(const Scene& scene, double dem_critical) {
+  if (const auto* seconds = std::get_if<StepSeconds>(&scene.time.step)) return seconds->seconds;
+  return std::get<StepFraction>(scene.time.step).of_critical * dem_critical;
+}
+
+/// Mean k_n of the bonds.
+double normal_stiffness(const ddem::Assembly& a, const ContactParameters& contact) {
+  const Operators op = make_operators(a, contact, {});
+  double sum = 0.0;
+  for (Eigen::Index row = 0; row < op.stiffness.size(); row += op.rows_per_bond) sum += op.stiffness[row];
+  return sum / static_cast<double>(a.bonds.size());
+}
+
+HexagonalBloch bloch_of(const Scene& scene, const ddem::Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation) {
+  const auto& packing = std::get<HexagonalPacking>(scene.assembly.packing);
+  const double angle = packing.close_packed_along == Axis::x ? 0.0 : 0.5 * std::numbers::pi;
+  ContactParameters uniform = contact;
+  uniform.normal_stiffness = normal_stiffness(a, contact);
+  return {{a.packing.radius.front(), a.density, a.thickness, angle}, uniform, deformation};
+}
+
+/// Four radii is the shortest wave that discs in a row can carry.
+std::vector<double> check_wavelengths(const ddem::Assembly& a, std::vector<double> wavelengths) {
+  const double shortest = 4.0 * mean_radius(a.packing), length = a.packing.length;
+  if (wavelengths.empty()) {
+    for (const double share : {1.0, 2.0, 4.0, 8.0}) {
+      if (length / share >= shortest) wavelengths.push_back(length / share);
+    }
+  }
+  for (const double w : wavelengths) {
+    if (!(w >= shortest) || !std::isfinite(w)) {
+      throw InputError(fmt::format("--wavelength {:.6g} m: discs carry no wave shorter than four mean radii, {:.6g} m", w, shortest));
+    }
+  }
+  return wavelengths;
+}
+
+void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParameters& contact, const HeldDofs& held, bool hexagonal) {
+  s.critical = critical_step(a, contact, s.deformation, held);
+  if (!s.deformation.active()) return;
+  s.softness = normal_stiffness(a, contact) / (s.deformation.young_modulus * a.thickness);
+  s.fixed_point_radius = fixed_point_radius(a, contact, s.deformation);
+  if (s.deformation.scheme == Scheme::lagged) {
+    s.radius_limit = 2.0 / s.deformation.relaxation - 1.0;
+    s.softness_limit = s.softness * s.radius_limit / *s.fixed_point_radius;
+    const auto factor = stable_softness_factor(a, contact, s.deformation, held, s.time_step);
+    if (factor) s.softness_limit_at_step = *factor * s.softness;
+  }
+  if (s.has_energy()) return;
+  if (a.size() <= kLargestFlutterSearch && !hexagonal) s.flutter = find_flutter(a, contact, s.deformation, held);
+  SimulationInput in;
+  in.contact = contact;
+  in.contact.kinematics = ddem::Kinematics::linear;
+  in.deformation = s.deformation;
+  in.held = held;
+  in.time_step = s.time_step;
+  s.noise = run_noise(a, in);
+}
+
+}  // namespace
+
+bool SceneStability::has_energy() const {
+  return !deformation.active() || stiffness_ratio == 0.0 || deformation.correction != ddem::Correction::normal;
+}
+
+std::vector<std::string> SceneStability::instabilities() const {
+  std::vector<std::string> reasons;
+  if (critical.bound == StepBound::fixed_point) {
+    reasons.push_back("the lagged strains do not converge: no step is stable");
+  } else if (critical.bound == StepBound::feeding) {
+    reasons.push_back("an even number of evaluations overshoots the converged strains and adds energy at any step");
+  } else if (critical.step && time_step > *critical.step) {
+    reasons.push_back("the step is above the critical one");
+  }
+  if (flutter && flutter->frequency && deformation.scheme == Scheme::implicit) {
+    reasons.push_back("the normal-only correction flutters at any step: it has no energy");
+  }
+  if (noise && (noise->diverged || noise->growth > noise->resolution)) {
+    reasons.push_back(fmt::format("noise grows in a run of this scheme, by {:.3g} a step", noise->growth));
+  }
+  // Where there is an energy, the critical step of the finite assembly is the sharper criterion.
+  if (!has_energy() && lattice && lattice->worst.growth > kNoGrowth) {
+    reasons.push_back(fmt::format("a plane wave of the infinite lattice grows by {:.3g} a step", lattice->worst.growth));
+  }
+  return reasons;
+}
+
+SceneStability scene_stability(const Scene& scene, std::vector<double> wavelengths) {
+  const ddem::Assembly a = build_assembly(scene);
+  const ContactParameters contact = contact_parameters(scene);
+  const HeldDofs held = held_dofs(scene, a);
+  SceneStability s;
+  s.discs = static_cast<int>(a.size());
+  s.bonds = static_cast<int>(a.bonds.size());
+  s.deformation = deformation_parameters(scene);
+  s.stiffness_ratio = contact.stiffness_ratio;
+  const std::vector<double> chosen = check_wavelengths(a, std::move(wavelengths));
+  try {
+    s.dem_critical_step = 2.0 / largest_frequency(a, contact, held);
+    s.time_step = scene_step(scene, s.dem_critical_step);
+    const bool hexagonal = std::holds_alternative<HexagonalPacking>(scene.assembly.packing);
+    find_limits(s, a, contact, held, hexagonal);
+    if (hexagonal) {
+      const HexagonalBloch bloch = bloch_of(scene, a, contact, s.deformation);
+      s.lattice = {bloch.worst_wave(s.time_step), bloch.largest_stable_step()};
+      s.waves = lattice_waves(bloch, s.time_step, chosen);
+    } else {
+      s.waves = static_waves(scene, s.time_step, chosen);
+    }
+  } catch (const std::invalid_argument& e) {
+    throw InputError(scene.path.string() + ": " + e.what());
+  } catch (const InputError&) {
+    throw;
+  } catch (const SolverError&) {
+    throw;
+  } catch (const std::runtime_error& e) {
+    throw SolverError(std::string("stability: ") + e.what());
+  }
+  return s;
+}
+
+}  // namespace ddem::harness

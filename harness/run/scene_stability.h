@@ -1,0 +1,47 @@
+#pragma once
+// Stability of a scene, without waiting for it to blow up: `ddem stability`.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/spectra/flutter.h"
+#include "dem/spectra/spectra.h"
+#include "harness/run/noise_run.h"
+#include "harness/run/wave_growth.h"
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+/// The infinite lattice of the scene's discs, all wave vectors.
+struct LatticeStability {
+  WorstWave worst;                            ///< at the scene's step
+  std::optional<double> largest_stable_step;  ///< s
+};
+
+struct SceneStability {
+  int discs = 0, bonds = 0;
+  DeformationParameters deformation;
+  double stiffness_ratio = 0.0;
+  double time_step = 0.0, dem_critical_step = 0.0;
+  CriticalStep critical;
+  double softness = 0.0;                      ///< k_n/(E_p h), where there are deformable discs
+  std::optional<double> fixed_point_radius;   ///< rho(KB), likewise
+  double radius_limit = 0.0;                  ///< lagged: 2/w - 1
+  std::optional<double> softness_limit;       ///< lagged: of k_n/(E_p h), at vanishing steps
+  std::optional<double> softness_limit_at_step;
+  std::optional<FlutterSearch> flutter;       ///< N with shear stiffness; not for lattices nor many discs
+  std::optional<NoiseRun> noise;              ///< N with shear stiffness
+  std::optional<LatticeStability> lattice;    ///< hexagonal packings
+  std::vector<WaveGrowth> waves;
+
+  bool has_energy() const;  ///< every correction but N with shear stiffness
+  /// Why the scene is unstable at its step; empty: it is stable.
+  std::vector<std::string> instabilities() const;
+};
+
+/// `wavelengths` in m; none: the length of the packing, and its half, quarter and eighth.
+/// Throws InputError (scene), SolverError (an eigenvalue iteration failed).
+SceneStability scene_stability(const Scene& scene, std::vector<double> wavelengths);
+
+}  // namespace ddem::harness

@@ -1,0 +1,33 @@
+#pragma once
+// What a scheme does to long waves: numerical damping, or growth, of a wave along x at a given step.
+
+#include <string>
+#include <vector>
+
+#include "dem/spectra/bloch.h"
+#include "harness/scene/scene.h"
+
+namespace ddem::harness {
+
+struct WaveGrowth {
+  std::string wave;         ///< shear, p (no lateral strain), bar (free strip), rotation
+  double wavelength = 0.0;  ///< m
+  double frequency = 0.0;   ///< angular, rad/s
+  double growth = 0.0;      ///< |z| - 1 of a step
+  bool exact = false;       ///< a Bloch wave of the infinite lattice; else first order in omega dt, from static moduli
+
+  double phase_speed() const;
+  /// |z|^steps of one period, less 1.
+  double growth_per_period(double time_step) const;
+};
+
+/// Waves of the infinite lattice, exact; `time_step` in s, wavelengths in m.
+std::vector<WaveGrowth> lattice_waves(const HexagonalBloch& bloch, double time_step, const std::vector<double>& wavelengths);
+
+/// Long waves of any assembly, from its static moduli. The stiffness that a wave meets with strains that lag by one
+/// evaluation is the converged one with z E_p in place of E_p, hence d ln C / d ln E_p = b/(1 + b), the share of the
+/// strains in its energy, gives the first-order damping (theory section 3): exactly for one evaluation; with the mean b
+/// of the wave for more, which for three evaluations on a random packing is 15 % off. Throws as scene_moduli().
+std::vector<WaveGrowth> static_waves(const Scene& scene, double time_step, const std::vector<double>& wavelengths);
+
+}  // namespace ddem::harness
