@@ -25,18 +25,17 @@ constexpr double kSqueeze = 1.01;
 
 constexpr double kOverlap = 8e-4;       // largest overlap in the end, mean radii
 constexpr double kNoOverlap = 2e-5;     // below it a packing counts as loose, mean radii
-
-// Largest net force over the mean contact force: far from the jamming point (mean overlap over kFar mean radii), on the
-// way, and in the end. What the last steps start from must be well balanced, or they take several times as long.
-constexpr double kFar = 2e-3;
-constexpr double kFarBalance = 1e-2, kRoughBalance = 3e-4, kForceBalance = 1e-4;
+constexpr double kAim = 0.8;            // of kOverlap: where the last shrinking aims at
+// Largest net force over the mean contact force, on the way and in the end. Roughly balanced packings come to the last
+// overlap in a quarter of the iterations, but then need several times as many to settle there.
+constexpr double kRoughBalance = 1e-3, kForceBalance = 1e-4;
 
 // Of the step that affine motion suggests, which leaves a third of the overlap after relaxation
 // (measured: 1.3 leaves a tenth, 1.6 nothing). Below the shortest step the search has lost its way.
 constexpr double kShrink = 1.0, kShortestStep = 1e-2;
 
-constexpr int kPatience = 30000;          // iterations of one minimisation: most take a few thousand
-constexpr int kMostIterations = 1000000;  // in all: 682 discs take 2e4, 1e4 discs take 1e5
+constexpr int kPatience = 60000;          // iterations of one minimisation: most take a few thousand
+constexpr int kMostIterations = 1000000;  // in all: 682 discs take 1e4, 1e4 discs take 6e4
 constexpr int kMostDiscs = 100000;
 
 void check_spec(const RandomSpec& spec) {
@@ -112,8 +111,7 @@ class JammingSearch {
   /// Until all contacts are in balance and the largest overlap is within kOverlap.
   void run() {
     while (iterations_ < kMostIterations) {
-      Outcome outcome = relax(kFarBalance);
-      if (outcome == Outcome::jammed && state_.mean_overlap <= kFar * unit()) outcome = relax(kRoughBalance);
+      Outcome outcome = relax(kRoughBalance);
       const bool near = outcome == Outcome::jammed && state_.largest_overlap <= kOverlap * unit();
       if (near) outcome = relax(kForceBalance);
       if (outcome != Outcome::jammed)
@@ -146,7 +144,9 @@ class JammingSearch {
   void shrink() {
     jammed_ = discs_.packing();
     bracket_ -= step_;
-    const double wanted = kShrink * state_.mean_overlap / (2.0 * unit());
+    // Shrinking by the fraction f of what affine motion suggests leaves about 1 - 2 f/3 of the overlaps.
+    const double surplus = 1.0 - kAim * kOverlap * unit() / state_.largest_overlap;
+    const double wanted = std::min(kShrink, 1.5 * surplus) * state_.mean_overlap / (2.0 * unit());
     step_ = std::min(wanted, 0.5 * bracket_);
     if (step_ < kShortestStep * wanted) {
       // Jammed this side and loose that side of a point that is not the jamming point: the packing rearranged

@@ -13,7 +13,7 @@ struct RandomSpec {
   int discs = 0;
   std::uint64_t seed = 1;
   double radius_ratio = 1.67;  ///< largest over smallest radius, 1 to 10; radii are uniform between them
-  FlatWalls walls;             ///< where not periodic
+  FlatWalls walls = {};        ///< where not periodic
 
   bool operator==(const RandomSpec&) const = default;
 };
@@ -31,6 +31,6 @@ Packing random_jammed(const RandomSpec& spec);
 
 /// The bits of one small packing, which a test compares. Whatever changes the packing of a spec changes this number too:
 /// part of the name under which a packing may be stored.
-inline constexpr std::uint64_t kJammingBits = 11604584007427108295ULL;
+inline constexpr std::uint64_t kJammingBits = 17593074311740711017ULL;
 
 }  // namespace ddem::packings
