@@ -82,7 +82,7 @@ SceneModuli scene_moduli(const Scene& scene) {
     }
     if (const auto closed = build_laterally_closed(scene)) m.stiffness = homogenise(scene, *closed);
     m.strip = pull_strip(a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a));
-    m.method = m.stiffness ? "the packing closed in y, homogenised; bar speed from the free strip under tension"
+    m.method = m.stiffness ? "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension"
                            : "the free strip under tension only: this packing from a file does not close in y (give its width as the period)";
   } catch (const std::invalid_argument& e) {
     throw InputError(scene.path.string() + ": [assembly]: " + e.what());

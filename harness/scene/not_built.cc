@@ -17,7 +17,6 @@ struct NotBuilt {
 };
 
 constexpr NotBuilt not_built[] = {
-    {"assembly.walls", When::equals, "flat", "use walls = \"periodic\""},
     {"time.integrator", When::equals, "exact", "use integrator = \"verlet\""},
 };
 
