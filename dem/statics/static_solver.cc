@@ -98,6 +98,12 @@ struct StaticSolver::Impl {
   }
 };
 
+Eigen::Vector2d bond_force(const Bonds& b, const Operators& op, const StaticState& state, std::size_t c) {
+  const double fn = state.bond_forces[op.rows_per_bond * c];
+  const double ft = op.rows_per_bond == 2 ? state.bond_forces[2 * c + 1] : 0.0;
+  return {fn * b.nx[c] - ft * b.ny[c], fn * b.ny[c] + ft * b.nx[c]};
+}
+
 StaticSolver::StaticSolver(const Assembly& assembly, const ContactParameters& contact,
                            const DeformationParameters& deformation, const HeldDofs& held)
     : impl_(std::make_unique<Impl>(assembly)) {

@@ -21,6 +21,9 @@ struct StaticState {
   Eigen::VectorXd bond_forces;   ///< rows as in Operators::overlap, N
 };
 
+/// Force (x, y) of bond c on its disc i, N.
+Eigen::Vector2d bond_force(const Bonds& bonds, const Operators& operators, const StaticState& state, std::size_t c);
+
 /// Factorises once, solves for any number of strains. The system in (q, eps) is
 ///   [ C^T K C    -C^T K G      ] [q  ]     [ C^T K e_E ]
 ///   [ -S K C     V C + S K G   ] [eps] = - [ -S K e_E  ],   e_E = affine overlaps;
