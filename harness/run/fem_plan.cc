@@ -104,8 +104,9 @@ FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli) {
   if (const auto* fraction = std::get_if<StepFraction>(&scene.time.step)) fem.step_fraction = fraction->of_critical;
   fem.sample_every = static_cast<int>(scene.time.sample_every);
 
-  plan.context = {fem.material.wave_speed(*wave, fem.periodic), fem.length, box.x0, source_centre(scene),
-                  source_duration(scene), source_amplitude(scene), smallest_arrival(scene)};
+  const double speed = fem.material.wave_speed(*wave, fem.periodic);
+  plan.context = {speed, fem.length, box.x0, source_centre(scene), source_duration(scene), source_amplitude(scene),
+                  smallest_arrival(scene), pulse_half_width(scene, speed)};
   fem.end = choose_end(scene, plan);
   for (const Probe& p : plan.layout.probes) {
     const double x = std::clamp(p.x - box.x0, 0.0, fem.length), y = std::clamp(p.y - box.y0, 0.0, fem.width);
