@@ -57,6 +57,19 @@ std::vector<ProbeSignal> probe_signals(const std::vector<std::vector<double>>& s
   return probes;
 }
 
+// Dispersion stretches a pulse: over its own width only, the centroid loses the end that lags behind. On the lattice a tenth
+// more takes the error of the shear centroid from -0.04 to 0.004 % (P: -0.07 to -0.014 %).
+constexpr double kStretch = 1.1;
+
+/// The same for all probes, as wide as there is room for between each peak and the first reflection.
+double centroid_half_width(const std::vector<ProbeSignal>& probes, const std::vector<ProbePick>& picks, double pulse) {
+  double room = kStretch * pulse;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    if (picks[p].pick.ok()) room = std::min(room, probes[p].window.end - picks[p].pick.value().time - probes[p].signal.dt);
+  }
+  return std::max(pulse, room);
+}
+
 /// A mean needs more than half of the pairs.
 template <class Delay>
 WaveSpeed speed_of_pairs(const ProbeLayout& layout, const Delay& delay) {
@@ -79,14 +92,13 @@ WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, do
                              const ProbeLayout& layout, const WaveContext& context) {
   const auto probes = probe_signals(signals, dt, layout, context);
   std::vector<ProbePick> picks;
-  std::vector<Pick> centroids;
-  for (int p = 0; p < static_cast<int>(probes.size()); ++p) {
-    picks.push_back({p, probes[p].peak()});
-    if (context.pulse_half_width > 0.0) centroids.push_back(probes[p].centroid(context.pulse_half_width));
-  }
+  for (int p = 0; p < static_cast<int>(probes.size()); ++p) picks.push_back({p, probes[p].peak()});
   WaveSpeed speed = speed_of_pairs(layout, [&](const ProbePair& pair) { return delay_between(picks[pair.from].pick, picks[pair.to].pick); });
   std::optional<WaveSpeed> by_centroid;
-  if (!centroids.empty()) {
+  if (context.pulse_half_width > 0.0) {
+    const double half_width = centroid_half_width(probes, picks, context.pulse_half_width);
+    std::vector<Pick> centroids;
+    for (const ProbeSignal& probe : probes) centroids.push_back(probe.centroid(half_width));
     by_centroid = speed_of_pairs(layout, [&](const ProbePair& pair) { return delay_between(centroids[pair.from], centroids[pair.to]); });
   }
   WaveSpeed by_correlation = speed_of_pairs(layout, [&](const ProbePair& pair) {
