@@ -1,6 +1,5 @@
 #include "dem/statics/sections.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,17 +10,25 @@
 namespace ddem {
 namespace {
 
-HeldDofs hold_ends(const Packing& p, double edge_band, bool hold_y) {
+/// The ends moved against each other along x (component 0) or y (1): the left band stays, the right one moves by 1. As in
+/// a driven strip with a right end fixed in x, nothing else is held, so that no other force passes through.
+struct Pull {
   HeldDofs held;
-  held.x.assign(p.size(), 0);
-  if (hold_y) held.y.assign(p.size(), 0);
-  for (const Edge e : {Edge::left, Edge::right}) {
-    for (const int d : edge_discs(p, e, edge_band)) {
-      held.x[d] = 1;
-      if (hold_y) held.y[d] = 1;
-    }
+  Eigen::VectorXd displacement;
+};
+
+Pull pull(const Packing& p, double edge_band, int component, int dofs_per_disc) {
+  Pull out;
+  out.displacement = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs_per_disc * p.size()));
+  std::vector<std::uint8_t>& moved = component == 0 ? out.held.x : out.held.y;
+  moved.assign(p.size(), 0);
+  for (const int d : edge_discs(p, Edge::left, edge_band)) moved[d] = 1;
+  if (component == 1) out.held.x.assign(p.size(), 0);
+  for (const int d : edge_discs(p, Edge::right, edge_band)) {
+    moved[d] = out.held.x[d] = 1;
+    out.displacement[static_cast<Eigen::Index>(dofs_per_disc) * d + component] = 1.0;
   }
-  return held;
+  return out;
 }
 
 /// Force that the part right of the plane x = cut exerts on the part left of it.
@@ -55,7 +62,7 @@ double middle(const Packing& p) {
   return 0.5 * (*lo + *hi);
 }
 
-Eigen::Vector2d mean_fluctuation(const SectionDiscs& section, const StaticState& state, int dofs_per_disc) {
+Eigen::Vector2d mean_displacement(const SectionDiscs& section, const StaticState& state, int dofs_per_disc) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const int d : section) sum += state.fluctuation.segment<2>(static_cast<Eigen::Index>(dofs_per_disc) * d);
   return sum / static_cast<double>(section.size());
@@ -98,33 +105,21 @@ StaticSections static_sections(const Assembly& a, const ContactParameters& conta
   require_valid(sections, a.size());
   StaticSections out;
   out.periodic = a.packing.period.y > 0.0;
-  const StaticSolver solver(a, contact, deformation, hold_ends(a.packing, edge_band, out.periodic));
   for (const SectionDiscs& section : sections) {
     double sum = 0.0;
     for (const int d : section) sum += a.packing.x[d];
     out.x.push_back(sum / static_cast<double>(section.size()));
     out.mass_before.push_back(moving_mass_before(a, out.x.back()));
   }
-  std::vector<MacroStrain> loads = {{1, 0, 0}};
-  if (out.periodic) loads.push_back({0, 0, 1});
   const double cut = middle(a.packing);
-  Eigen::Matrix2d force = Eigen::Matrix2d::Identity();
+  const int dofs = contact.has_rotation() ? 3 : 2;
   out.displacement.assign(sections.size(), Eigen::Matrix2d::Zero());
-  for (int k = 0; k < static_cast<int>(loads.size()); ++k) {
-    const StaticState state = solver.solve(loads[k]);
-    force.col(k) = force_through(a, solver.operators(), state, cut);
-    for (std::size_t n = 0; n < sections.size(); ++n) {
-      // Less the rigid rotation that takes the symmetric affine shear (y/2, x/2) to (0, x), periodic in y.
-      Eigen::Vector2d u = mean_fluctuation(sections[n], state, solver.operators().dofs_per_disc);
-      u[k] += out.x[n];
-      out.displacement[n].col(k) = u;
-    }
-  }
-  if (!out.periodic) force.col(0)[1] = 0.0;
-  const Eigen::Matrix2d per_force = force.inverse();
-  for (Eigen::Matrix2d& u : out.displacement) {
-    u = u * per_force;
-    if (!out.periodic) u.col(1).setZero();
+  for (int k = 0; k < (out.periodic ? 2 : 1); ++k) {
+    const Pull load = pull(a.packing, edge_band, k, dofs);
+    const StaticSolver solver(a, contact, deformation, load.held);
+    const StaticState state = solver.solve_moved(load.displacement);
+    const double force = force_through(a, solver.operators(), state, cut)[k];
+    for (std::size_t n = 0; n < sections.size(); ++n) out.displacement[n].col(k) = mean_displacement(sections[n], state, dofs) / force;
   }
   return out;
 }

@@ -40,8 +40,9 @@ struct StaticSections {
   Speeds between(int from, int to) const;
 };
 
-/// Converged particle strains, any correction. The discs of both end bands (`edge_band` from the outermost centres, m)
-/// follow the prescribed motion, u_x and between periodic edges u_y; their rotation, and on a free strip u_y, is free.
+/// Converged particle strains, any correction. The discs of the left end's band (`edge_band` from the outermost centre, m)
+/// stay where they are and those of the right one move, all alike: along x, and between periodic edges along y as well.
+/// What else they can do they do freely, as under a driven edge; so no other force passes through the strip.
 /// Throws std::invalid_argument on an empty section or a disc that does not exist, std::runtime_error without equilibrium.
 StaticSections static_sections(const Assembly& assembly, const ContactParameters& contact,
                                const DeformationParameters& deformation, double edge_band,

@@ -14,7 +14,8 @@ struct HeldDofs {
   std::vector<std::uint8_t> x, y, theta;
 };
 
-/// Equilibrium: displacement E . x + fluctuation, and the forces of the bonds.
+/// Equilibrium: displacement E . x + fluctuation (without a macroscopic strain the displacement itself), and the forces of
+/// the bonds.
 struct StaticState {
   Eigen::VectorXd fluctuation;   ///< q as in Operators
   Eigen::VectorXd strain;        ///< particle strains as in Operators (times the length scale)
@@ -40,6 +41,8 @@ class StaticSolver {
 
   /// Throws std::runtime_error if the residual does not fall below 1e-12 of the load.
   StaticState solve(const MacroStrain& strain) const;
+  /// The same for held degrees of freedom that are moved: their entries of `displacement` (q as in Operators, the others 0).
+  StaticState solve_moved(const Eigen::VectorXd& displacement) const;
   const Operators& operators() const;
 
  private:
