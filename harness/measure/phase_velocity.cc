@@ -139,7 +139,7 @@ Outcome<PhaseVelocity> phase_velocity(const WindowedSignal& from, const Windowed
   const SampleRange band = band_of(s, strongest);
   const double independent = 1.0 / (static_cast<double>(std::min(a.values.size(), b.values.size())) * dt);
   const double width = static_cast<double>(band.size()) * s.step;
-  if (width < 2.0 * independent) {
+  if (width < independent) {
     return FailedMeasurement{Failure::narrow_band, fmt::format("both signals carry energy over {:.4g} Hz only, where their windows resolve {:.4g} Hz",
                                                                width, independent)};
   }

@@ -33,8 +33,8 @@ struct PhaseVelocity {
 /// c(f) = 2 pi f distance / phi(f), phi the phase of the cross spectrum, unwrapped from the strongest frequency on.
 /// There it is counted from the delay of the cross-correlation, so dispersion between the two places may shift it by
 /// less than half a cycle. Frequencies below one period in the shorter window are left out: what lies outside would
-/// decide them. Fails where the signals do not correlate (see correlation_delay), where the band holds less than two
-/// independent frequencies (narrow_band), and where a phase is not that of a delay (not_causal). Throws
+/// decide them. Fails where the signals do not correlate (see correlation_delay), where the band is narrower than what
+/// the shorter window resolves (narrow_band), and where a phase is not that of a delay (not_causal). Throws
 /// std::invalid_argument on a distance that is not positive, signals of different sampling, and windows or options
 /// without sense.
 Outcome<PhaseVelocity> phase_velocity(const WindowedSignal& from, const WindowedSignal& to, double distance,

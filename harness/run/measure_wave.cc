@@ -107,4 +107,17 @@ WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, do
   return {std::move(picks), std::move(speed), std::move(by_centroid), std::move(by_correlation)};
 }
 
+std::vector<Outcome<PhaseVelocity>> phase_velocities(const std::vector<std::vector<double>>& signals, double dt,
+                                                     const ProbeLayout& layout, const WaveContext& context) {
+  const auto probes = probe_signals(signals, dt, layout, context);
+  std::vector<Outcome<PhaseVelocity>> out;
+  for (const ProbePair& pair : layout.pairs) {
+    const ProbeSignal &from = probes[pair.from], &to = probes[pair.to];
+    out.push_back(from.too_short() || to.too_short()
+                      ? Outcome<PhaseVelocity>(from.failed().error())
+                      : phase_velocity({from.signal, from.window}, {to.signal, to.window}, pair.distance));
+  }
+  return out;
+}
+
 }  // namespace ddem::harness

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "harness/measure/phase_velocity.h"
 #include "harness/measure/picker.h"
 #include "harness/measure/wave_speed.h"
 #include "harness/model/probes.h"
@@ -46,5 +47,9 @@ struct WaveMeasurement {
 /// `signals[p]` belongs to `probes[p]`; the component that carries the wave. A mean needs more than half of the pairs.
 WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, double dt,
                              const ProbeLayout& layout, const WaveContext& context);
+
+/// Phase velocity against frequency between the probes of each pair (see phase_velocity.h), windowed like the picks.
+std::vector<Outcome<PhaseVelocity>> phase_velocities(const std::vector<std::vector<double>>& signals, double dt,
+                                                     const ProbeLayout& layout, const WaveContext& context);
 
 }  // namespace ddem::harness

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "harness/campaign/strip_campaign.h"
+#include "harness/references/column_release.h"
 #include "harness/references/driven_columns.h"
 #include "harness/run/dem_run.h"
 #include "tests/verification/laws.h"
@@ -117,6 +118,27 @@ TEST(HexagonalDispersion, IsExactlyThatOfItsColumns) {
       for (std::size_t n = 0; n < exact.back().size(); ++n) {
         EXPECT_NEAR(recorded.back()[n], exact.back()[n], 1e-3 * run.context.source_amplitude) << id_of(c) << ", sample " << n;
       }
+    }
+  }
+}
+
+/// Shear at k_t = 0 is a chain of columns, a radius apart, with springs between neighbours: c = c_0 sin(q)/q, q = k r/2. The
+/// time step makes it faster by (w dt)^2/24, w up to 2 pi 1.6/duration: 2e-5. The window cuts the tail of the pulse, 1e-3 of
+/// its height for an oscillation, of a spectrum that is a tenth at the band's end, in a phase of 2 pi and more: 1e-3.
+TEST(HexagonalDispersion, OfPhaseVelocityIsTheChains) {
+  const StripCampaign s;
+  const StripCase c{StripPacking::hexagonal, 0, Model::dem, 0.0, Protocol::long_wave, StripWave::shear};
+  const double exact = closed_form_speed(s, c);
+  const DemRun run = run_scene(scene_of(scene_text(s, c, exact), id_of(c)), {exact, {}});
+  const auto velocities = phase_velocities(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context);
+  ASSERT_EQ(velocities.size(), 5u);
+  const double radius = run.assembly.packing.radius[0], duration = run.context.source_duration;
+  for (const auto& v : velocities) {
+    ASSERT_TRUE(v.ok()) << v.error().reason;
+    EXPECT_GT(v.value().frequency.back() * duration, 1.4);
+    for (std::size_t n = 0; n < v.value().frequency.size(); ++n) {
+      const double k = 2.0 * std::numbers::pi * v.value().frequency[n] / v.value().speed[n];
+      EXPECT_NEAR(v.value().speed[n] / (exact * references::chain_phase_speed(k * radius)), 1.0, 1e-3) << v.value().frequency[n] * duration;
     }
   }
 }
