@@ -73,6 +73,7 @@ WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave,
   c.source_duration = source_duration(scene);
   c.source_amplitude = source_amplitude(scene);
   c.smallest_arrival = smallest_arrival(scene);
+  c.pulse_half_width = pulse_half_width(scene, c.speed);
   return c;
 }
 

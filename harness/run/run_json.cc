@@ -3,6 +3,10 @@
 namespace ddem::harness {
 namespace {
 
+Json speed_or_status(const WaveSpeed& w) {
+  return w.speed.ok() ? Json(w.speed.value().mean) : Json{{"status", w.speed.error().reason}};
+}
+
 /// wave_speed, wave_speed_stddev and pairs; what was not measured is a status with the reason.
 void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const ProbeLayout& layout, const std::string& why_not) {
   if (!m) {
@@ -10,13 +14,13 @@ void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const Pro
     j["pairs"] = Json::array();
     return;
   }
+  j["wave_speed"] = speed_or_status(m->speed);
   if (m->speed.speed.ok()) {
-    const SpeedStatistics& s = m->speed.speed.value();
-    j["wave_speed"] = s.mean;
-    j["wave_speed_stddev"] = s.stddev ? Json(*s.stddev) : Json{{"status", "a single pair has no standard deviation"}};
-  } else {
-    j["wave_speed"] = {{"status", m->speed.speed.error().reason}};
+    const auto stddev = m->speed.speed.value().stddev;
+    j["wave_speed_stddev"] = stddev ? Json(*stddev) : Json{{"status", "a single pair has no standard deviation"}};
   }
+  j["wave_speed_by_centroid"] = m->by_centroid ? speed_or_status(*m->by_centroid) : Json{{"status", "a released column sends no pulse of known width"}};
+  j["wave_speed_by_correlation"] = speed_or_status(m->by_correlation);
   j["good_pairs"] = m->speed.good_pairs;
   j["pairs"] = Json::array();
   for (const PairSpeed& p : m->speed.pairs) {
