@@ -83,7 +83,9 @@ HexagonalBloch::HexagonalBloch(const HexagonalLattice& lattice, const ContactPar
   const double det = d.direct * d.direct - d.coupling * d.coupling;
   // Work conjugate of (eps_xx, eps_yy, eps_xy) is (s_xx, s_yy, 2 s_xy).
   strain_stiffness_ << d.direct / det, -d.coupling / det, 0.0, -d.coupling / det, d.direct / det, 0.0, 0.0, 0.0, 2.0 / d.shear;
-  strain_stiffness_ *= volume / (lattice.radius * lattice.radius);
+  const double solid_fraction = std::numbers::pi / (2.0 * std::numbers::sqrt3);
+  const double share = deformation.volume == ParticleVolume::cell ? 1.0 / solid_fraction : 1.0;
+  strain_stiffness_ *= share * volume / (lattice.radius * lattice.radius);
 }
 
 HexagonalBloch::Cell HexagonalBloch::cell(WaveVector k) const {

@@ -276,7 +276,7 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 }  // namespace
 
 std::size_t campaign_work(const StripCampaign& s, bool with_fem) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (with_fem ? fem_outcomes(s).size() : 0);
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + kSchemeStudyWork + (with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -308,14 +308,17 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
   };
   // The finite elements first: they are the longest job.
   const std::size_t fem_jobs = options.with_fem ? 1 : 0;
-  run_jobs(fem_jobs + lattices.size() + cases.size(), options.jobs, [&](std::size_t job) {
+  const std::size_t long_jobs = fem_jobs + 1;
+  run_jobs(long_jobs + lattices.size() + cases.size(), options.jobs, [&](std::size_t job) {
     if (job < fem_jobs) {
       run_all_fem(s, results, options);
-    } else if (job < fem_jobs + lattices.size()) {
-      results.stability[job - fem_jobs] = release_noise(s, lattices[job - fem_jobs], options);
+    } else if (job < long_jobs) {
+      results.schemes = study_schemes(s, [&] { progress(1); });
+    } else if (job < long_jobs + lattices.size()) {
+      results.stability[job - long_jobs] = release_noise(s, lattices[job - long_jobs], options);
       progress(4);
     } else {
-      simulate_nth(job - fem_jobs - lattices.size());
+      simulate_nth(job - long_jobs - lattices.size());
     }
   });
   place_probes(s, results.picture);

@@ -187,6 +187,40 @@ Verdict fem_verdict(const CampaignResults& r, const FemOutcome& f) {
   return v;
 }
 
+/// What the schemes are chosen by: energy, order in the step, reach.
+Verdict energy_verdict(const SchemeStudy& study) {
+  Verdict v{.case_id = "schemes/energy", .title = "Energy over 10000 steps", .reason = study.failure};
+  for (const EnergyCurve& c : study.energy) {
+    const bool gradients = c.scheme.ends_with("gradients");
+    if (c.scheme.starts_with("lagged")) continue;
+    v.criteria.push_back(judge(fmt::format("energy drift, {}", c.scheme), c.drift, {0.0, 0.0, gradients ? 1e-3 : 1e-12}, "",
+                               gradients ? "strains right to a residual of 2.5e-4" : "leapfrog with a symmetric stiffness conserves its invariant; round-off of 10000 steps"));
+  }
+  conclude(v);
+  return v;
+}
+
+Verdict order_verdict(const SchemeStudy& study) {
+  Verdict v{.case_id = "schemes/order", .title = "Order of the error in the time step", .reason = study.failure};
+  for (const OrderCurve& c : study.order) {
+    v.criteria.push_back(judge(fmt::format("order, {}", c.scheme), c.order, absolute(c.scheme == "lagged" ? 1.0 : 2.0, 0.1), "",
+                               "leapfrog is of second order, a strain that is a step late of first; the next term at these steps is below a tenth"));
+  }
+  conclude(v);
+  return v;
+}
+
+Verdict reach_verdict(const SchemeStudy& study) {
+  Verdict v{.case_id = "schemes/reach", .title = "Poisson's ratio of the softest discs, implicit strains", .reason = study.failure};
+  for (const ReachCurve& c : study.reach) {
+    if (c.scheme != "implicit") continue;
+    v.criteria.push_back(judge(fmt::format("Poisson's ratio at k_n/E_p = {:g}", c.points.back().softness), c.points.back().poisson,
+                               absolute(c.points.back().closed_form, 0.003), "", "closed form of the lattice; dispersion of an 8 mm pulse as in the other runs"));
+  }
+  conclude(v);
+  return v;
+}
+
 }  // namespace
 
 std::vector<Verdict> verdicts_of(const CampaignResults& r) {
@@ -201,6 +235,7 @@ std::vector<Verdict> verdicts_of(const CampaignResults& r) {
   }
   for (const StabilityOutcome& o : r.stability) verdicts.push_back(stability_verdict(o));
   for (const FemOutcome& f : r.fem) verdicts.push_back(fem_verdict(r, f));
+  for (const auto& verdict : {energy_verdict, order_verdict, reach_verdict}) verdicts.push_back(verdict(r.schemes));
   for (Verdict& v : verdicts) {
     if (v.reproduce.empty()) v.reproduce = fmt::format("ddem validate --only {}", v.case_id);
   }

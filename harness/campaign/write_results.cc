@@ -116,6 +116,39 @@ void write_fem(Hdf5Group& parent, const FemOutcome& f) {
   write_recording(g, f.recording);
 }
 
+/// energy/CURVE: time, energy over its first value; reach/CURVE: k_n/E_p, Poisson's ratio (where status is ok), closed form;
+/// order/CURVE: step over critical, error.
+void write_schemes(Hdf5Group& parent, const SchemeStudy& study) {
+  parent.set_attribute("status", study.failure.empty() ? std::string("ok") : study.failure);
+  Hdf5Group energy = parent.create_group("energy"), reach = parent.create_group("reach"), order = parent.create_group("order");
+  for (const EnergyCurve& c : study.energy) {
+    Hdf5Group g = energy.create_group(fmt::format("{}, step {:g}", c.scheme, c.step_fraction));
+    set_finite(g, "energy_drift", c.drift);
+    g.set_attribute("status", c.drift ? "ok" : "diverged");
+    g.write("time", c.time).set_attribute("unit", "s");
+    g.write("energy", c.energy);
+  }
+  for (const ReachCurve& c : study.reach) {
+    Hdf5Group g = reach.create_group(c.scheme);
+    std::vector<double> softness, poisson, closed;
+    std::vector<std::string> status;
+    for (const ReachPoint& p : c.points) {
+      softness.push_back(p.softness), closed.push_back(p.closed_form);
+      poisson.push_back(p.poisson.value_or(0.0));
+      status.push_back(p.poisson ? "ok" : "no speed: unstable");
+    }
+    g.write("softness", softness);
+    g.write("poisson_ratio", poisson);
+    g.write("status", status);
+    g.write("closed_form", closed);
+  }
+  for (const OrderCurve& c : study.order) {
+    Hdf5Group g = order.create_group(c.scheme);
+    g.write("step_fraction", c.step_fraction);
+    g.write("error", c.error);
+  }
+}
+
 void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
   AtomicFile atomic(target);
   Hdf5File file = Hdf5File::create(atomic.temporary_path());
@@ -129,6 +162,8 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
     for (const StabilityOutcome& o : r.stability) write_stability(stability, o);
     Hdf5Group fem = root.create_group("finite_elements");
     for (const FemOutcome& f : r.fem) write_fem(fem, f);
+    Hdf5Group schemes = root.create_group("schemes");
+    write_schemes(schemes, r.schemes);
     Hdf5Group strip = root.create_group("strip");
     strip.write("x", r.picture.packing.x).set_attribute("unit", "m");
     strip.write("y", r.picture.packing.y).set_attribute("unit", "m");

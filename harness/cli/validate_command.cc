@@ -45,6 +45,10 @@ void restrict_to(StripCampaign& campaign, const std::string& id) {
       narrowed.stiffness_ratios = {ratio};
     }
   }
+  if (id.starts_with("schemes/")) {  // the study of schemes has models and ratios of its own
+    narrowed.models = {Model::dem};
+    narrowed.stiffness_ratios = {campaign.stiffness_ratios.front()};
+  }
   if (narrowed.models.empty()) {
     throw InputError("--only " + id + ": no such case; the report and summary.json name them, such as long-wave/random/dem/kt0.30");
   }

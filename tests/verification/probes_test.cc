@@ -141,10 +141,12 @@ void expect_no_reflection(StripPacking packing, StripWave wave) {
     EXPECT_LT(inside, early) << a.layout.probes[p].name;
     EXPECT_GT(after, 0.5) << a.layout.probes[p].name;
     ASSERT_TRUE(a.measurement->picks[p].pick.ok() && b.measurement->picks[p].pick.ok());
-    // In a random packing shear scatters into the faster P, which comes back early and weakly: 1e-5 of the
-    // time, a two-hundredth of the tolerance of any speed.
+    // In a random packing shear scatters into the faster P, which comes back early and weakly, as much as the packing has
+    // it: seeds 1 to 8 move the pick by 4e-6 to 6e-5 of the time. Allowed is a fiftieth of the half per cent within which
+    // speeds are to agree; a lattice does not scatter.
     const double picked = a.measurement->picks[p].pick.value().time;
-    EXPECT_NEAR(b.measurement->picks[p].pick.value().time, picked, 1e-5 * picked);
+    const double allowed = packing == StripPacking::random ? 1e-4 : 1e-5;
+    EXPECT_NEAR(b.measurement->picks[p].pick.value().time, picked, allowed * picked);
   }
 }
 
