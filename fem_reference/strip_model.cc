@@ -19,7 +19,6 @@
 #include <map>
 #include <numeric>
 
-#include "fem_reference/kernel/gauss_lobatto.h"
 #include "meshes/strip_mesh.h"
 
 namespace ddem::fem {
@@ -138,50 +137,6 @@ ElementMesh make_elements(const Nodes& nodes, double hx, double hy) {
   return mesh;
 }
 
-class Weights {
- public:
-  explicit Weights(const Nodes& nodes) : nodes_(nodes), indices_(nodes.dofs.get_fe().n_dofs_per_cell()) {}
-
-  void add(const Cell& cell, const dealii::Point<2>& place, double factor) {
-    const auto& fe = nodes_.dofs.get_fe();
-    const auto unit = nodes_.mapping.transform_real_to_unit_cell(cell, place);
-    cell->get_dof_indices(indices_);
-    for (unsigned k = 0; k < indices_.size(); ++k) {
-      weights_[nodes_.node_of_dof[indices_[k]]] += factor * fe.shape_value(k, unit);
-    }
-  }
-
-  NodeWeights take() const { return {weights_.begin(), weights_.end()}; }
-
- private:
-  const Nodes& nodes_;
-  std::vector<global_dof_index> indices_;
-  std::map<std::uint32_t, double> weights_;
-};
-
-NodeWeights at_point(const Nodes& nodes, const dealii::Point<2>& place) {
-  const Cell cell = dealii::GridTools::find_active_cell_around_point(nodes.mapping, nodes.dofs, place).first;
-  Weights weights(nodes);
-  weights.add(cell, place, 1.0);
-  return weights.take();
-}
-
-// Average over the line at `x`: in each row of elements one element (its left edge included, and the right
-// edge of the strip) with the Gauss-Lobatto rule, exact for its polynomials.
-NodeWeights at_section(const Nodes& nodes, double x, unsigned nx, unsigned ny) {
-  const GaussLobatto rule = gauss_lobatto(static_cast<int>(nodes.dofs.get_fe().degree));
-  Weights weights(nodes);
-  const double column = std::min(std::floor(x), nx - 1.0);
-  for (const Cell& cell : nodes.dofs.active_cell_iterators()) {
-    if (std::floor(cell->center()[0]) != column) continue;
-    const double bottom = std::floor(cell->center()[1]);
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      weights.add(cell, {x, bottom + rule.points[q]}, rule.weights[q] / ny);
-    }
-  }
-  return weights.take();
-}
-
 }  // namespace
 
 struct StripModeller::Meshes {
@@ -207,12 +162,14 @@ StripModel StripModeller::model(const StripCase& strip) {
     if (x < 1e-6) model.left_nodes.push_back(node);
     if (x > nx - 1e-6) model.right_nodes.push_back(node);
     model.x.push_back(x * hx);
+    model.y.push_back(nodes.place[node][1] * hy);
   }
+  const StripGrid layout{nx, ny, strip.degree, strip.periodic};
   for (const auto& [x, y] : strip.receivers.points) {
-    model.points.push_back(at_point(nodes, {std::min(x / hx, double(nx)), std::min(y / hy, double(ny))}));
+    model.points.push_back(at_point(layout, std::min(x / hx, double(nx)), std::min(y / hy, double(ny))));
   }
   for (const double x : strip.receivers.sections) {
-    model.sections.push_back(at_section(nodes, std::min(x / hx, double(nx)), nx, ny));
+    model.sections.push_back(at_section(layout, std::min(x / hx, double(nx))));
   }
   return model;
 }
