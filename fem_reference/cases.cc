@@ -184,7 +184,11 @@ TimeSpan read_time(const Json& json, const std::string& where, Problems& problem
   Table table(json, where, problems);
   TimeSpan time;
   time.integrator = table.optional_choice("integrator", integrators);
-  time.step_fraction = table.number("step_fraction", Sign::positive);
+  const Json* step = table.optional("step");
+  const Json* fraction = table.optional("step_fraction");
+  if ((step == nullptr) == (fraction == nullptr)) table.problem("needs either step_fraction or step");
+  if (step != nullptr) time.step = table.number(step, "step", Sign::positive);
+  if (fraction != nullptr) time.step_fraction = table.number(fraction, "step_fraction", Sign::positive);
   if (time.step_fraction > 2.0) {
     table.complain("step_fraction", time.step_fraction, "must be at most 2 (stable up to 1)", 0);
   }

@@ -58,9 +58,10 @@ struct EdgeDrive {
 
 struct TimeSpan {
   Integrator integrator = Integrator::verlet;
-  /// Of the critical time step. verlet: the step; above 1 the run blows up. exact: what sample_every and steps count
-  /// in, while the states are marched with the largest stable step.
-  double step_fraction = 0.0;
+  /// The step in s, or as a fraction of the critical one. verlet: above that the run blows up. exact: what sample_every
+  /// and steps count in, while the states are marched with the largest stable step.
+  std::optional<double> step;
+  double step_fraction = 0.0;  ///< instead of step
   std::optional<double> end;           ///< s; the last step is the first that reaches it
   std::optional<std::uint64_t> steps;  ///< instead of end
 };

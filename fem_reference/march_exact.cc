@@ -103,7 +103,7 @@ void march_exact(const StripProblem& problem, CaseResult& result) {
   const StripCase& strip = problem.strip;
   const Response response = strip.drive ? driven(problem) : released(problem);
   result.time_step = std::min(march_fraction * result.critical_time_step, response.largest_step);
-  const double unit = strip.time.step_fraction * result.critical_time_step;
+  const double unit = strip.time.step.value_or(strip.time.step_fraction * result.critical_time_step);
   result.sample_interval = unit * static_cast<double>(strip.sample_every);
   const std::size_t values = receiver_values(problem.model);
   const std::uint64_t samples = count_steps(strip, unit, values) / strip.sample_every + 1;

@@ -42,7 +42,8 @@ Leapfrog start(const StripProblem& problem, double time_step) {
 void march_verlet(const StripProblem& problem, CaseResult& result) {
   const StripCase& strip = problem.strip;
   const StripModel& model = problem.model;
-  const double dt = result.time_step = strip.time.step_fraction * result.critical_time_step;
+  const double dt = strip.time.step.value_or(strip.time.step_fraction * result.critical_time_step);
+  result.time_step = dt;
   result.sample_interval = dt * static_cast<double>(strip.sample_every);
   const std::size_t values = receiver_values(model);
   const std::uint64_t steps = count_steps(strip, dt, values), samples = steps / strip.sample_every + 1;
