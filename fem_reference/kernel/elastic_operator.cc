@@ -15,8 +15,9 @@ double determinant(const std::array<double, 4>& j) {
 }
 
 void check(const ElementMesh& mesh) {
-  const std::size_t points = (mesh.degree + 1) * (mesh.degree + 1);
-  if (mesh.jacobians.empty() || mesh.nodes.size() != mesh.element_count() * points) {
+  const std::size_t points = mesh.points_per_element(), elements = mesh.element_count();
+  const bool fits = mesh.jacobians.size() == elements || mesh.jacobians.size() == elements * points;
+  if (elements == 0 || mesh.nodes.size() != elements * points || !fits) {
     throw std::invalid_argument("a mesh needs (degree+1)^2 nodes for each of its elements, and an element");
   }
   for (const std::uint32_t node : mesh.nodes) {
@@ -57,7 +58,7 @@ std::array<double, coefficients_per_element> coefficients(const std::array<doubl
 }  // namespace
 
 ElasticOperator::ElasticOperator(const ElementMesh& mesh, const PlaneMaterial& material, InstructionSet set)
-    : kernel_(stiffness_kernel(mesh.degree, set)) {
+    : kernel_(stiffness_kernel(mesh.degree, mesh.affine() ? ElementShape::parallelogram : ElementShape::general, set)) {
   check(mesh);
   GaussLobatto rule = gauss_lobatto(mesh.degree);
   derivative_ = std::move(rule.derivative);
@@ -70,9 +71,10 @@ void ElasticOperator::add_mass(const ElementMesh& mesh, double density) {
   const std::size_t n = mesh.degree + 1;
   mass_.assign(mesh.node_count, 0.0);
   for (std::size_t element = 0; element < mesh.element_count(); ++element) {
-    const double total = density * determinant(mesh.jacobians[element]);
     for (std::size_t point = 0; point < n * n; ++point) {
-      mass_[mesh.nodes[element * n * n + point]] += total * weights_[point % n] * weights_[point / n];
+      const std::size_t place = element * n * n + point;
+      const double total = density * determinant(mesh.jacobians[mesh.affine() ? element : place]);
+      mass_[mesh.nodes[place]] += total * weights_[point % n] * weights_[point / n];
     }
   }
   if (std::any_of(mass_.begin(), mass_.end(), [](double m) { return !(m > 0.0); })) {
@@ -81,19 +83,21 @@ void ElasticOperator::add_mass(const ElementMesh& mesh, double density) {
 }
 
 void ElasticOperator::pack(const ElementMesh& mesh, const PlaneMaterial& material) {
-  const std::size_t points = (mesh.degree + 1) * (mesh.degree + 1);
+  const std::size_t points = mesh.points_per_element(), sets = mesh.affine() ? 1 : points;
   const std::size_t batches = (mesh.element_count() + lanes - 1) / lanes;
   // Lanes without an element work on the padding node with coefficients zero.
   batch_nodes_.assign(batches * points * lanes, static_cast<std::uint32_t>(mesh.node_count));
-  batch_coefficients_.assign(batches * coefficients_per_element * lanes, 0.0);
+  batch_coefficients_.assign(batches * sets * coefficients_per_element * lanes, 0.0);
   for (std::size_t element = 0; element < mesh.element_count(); ++element) {
     const std::size_t batch = element / lanes, lane = element % lanes;
     for (std::size_t point = 0; point < points; ++point) {
       batch_nodes_[(batch * points + point) * lanes + lane] = mesh.nodes[element * points + point];
     }
-    const auto c = coefficients(mesh.jacobians[element], material);
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      batch_coefficients_[(batch * coefficients_per_element + k) * lanes + lane] = c[k];
+    for (std::size_t point = 0; point < sets; ++point) {
+      const auto c = coefficients(mesh.jacobians[element * sets + point], material);
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        batch_coefficients_[((batch * sets + point) * coefficients_per_element + k) * lanes + lane] = c[k];
+      }
     }
   }
 }

@@ -1,8 +1,8 @@
 #pragma once
 // Stiffness and lumped mass of plane elastodynamics, M u'' = -K u, on spectral elements.
 //
-// On an affine element the slopes along the reference directions, g = (ux_xi, ux_eta, uy_xi, uy_eta), give
-// the energy 1/2 sum_q w_q g' C g with one symmetric 4 x 4 matrix an element,
+// The slopes along the reference directions, g = (ux_xi, ux_eta, uy_xi, uy_eta), give the energy 1/2 sum_q w_q g' C g
+// with a symmetric 4 x 4 matrix at each point, one for all points of a parallelogram,
 //     C(ia, kb) = |J| sum_jl Jinv(a, j) c_ijkl Jinv(b, l),
 // and f = K u is its derivative, with the slopes by sum factorisation at the Gauss-Lobatto points.
 

@@ -1,5 +1,6 @@
 #include "tests/fem_reference/dense.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,32 @@ Modes modes(const ElasticOperator& stiffness, const std::vector<double>& inverse
     result.vectors.emplace_back(vector.begin(), vector.end());
   }
   return result;
+}
+
+std::vector<double> solve_statics(const ElasticOperator& stiffness, const std::vector<double>& force,
+                                  const std::vector<bool>& fixed, std::vector<double> u) {
+  std::vector<std::size_t> free;
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    if (!fixed[k]) {
+      free.push_back(k);
+      u[k] = 0.0;
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(free.size());
+  std::vector<double> image(u.size()), unit(u.size(), 0.0);
+  stiffness.apply(u, image);
+  Eigen::VectorXd right(size);
+  Eigen::MatrixXd a(size, size);
+  for (Eigen::Index k = 0; k < size; ++k) right[k] = force[free[k]] - image[free[k]];
+  for (Eigen::Index column = 0; column < size; ++column) {
+    unit[free[column]] = 1.0;
+    stiffness.apply(unit, image);
+    unit[free[column]] = 0.0;
+    for (Eigen::Index row = 0; row < size; ++row) a(row, column) = image[free[row]];
+  }
+  const Eigen::VectorXd solution = a.llt().solve(right);
+  for (Eigen::Index k = 0; k < size; ++k) u[free[k]] = solution[k];
+  return u;
 }
 
 }  // namespace ddem::fem::test

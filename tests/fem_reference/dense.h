@@ -21,4 +21,8 @@ struct Modes {
 
 Modes modes(const ElasticOperator& stiffness, const std::vector<double>& inverse_mass);
 
+/// u with K u = force where `fixed` is false and u as given elsewhere.
+std::vector<double> solve_statics(const ElasticOperator& stiffness, const std::vector<double>& force,
+                                  const std::vector<bool>& fixed, std::vector<double> u);
+
 }  // namespace ddem::fem::test
