@@ -240,7 +240,11 @@ void read_mesh(Table& table, StripCase& strip) {
   strip.width = table.number("width", Sign::positive);
   strip.degree = static_cast<int>(table.count(table.required("degree"), "degree", max_degree));
   strip.elements = {1, 1};
-  const Json* elements = table.required("elements");
+  const Json* elements = table.optional("elements");
+  const Json* mesh = table.optional("mesh");
+  if ((elements == nullptr) == (mesh == nullptr)) table.problem("needs either elements or mesh");
+  if (mesh != nullptr && !mesh->is_string()) table.complain("mesh", *mesh, "must be the name of a file", 0);
+  if (mesh != nullptr && mesh->is_string()) strip.mesh = mesh->get<std::string>();
   if (elements == nullptr) return;
   if (!elements->is_array() || elements->size() != 2) {
     table.complain("elements", *elements, "must be [nx, ny]", 0);

@@ -73,8 +73,10 @@ struct Receivers {
 
 struct StripCase {
   std::string id;
-  double length = 0.0, width = 0.0;    ///< m
-  std::array<unsigned, 2> elements{};  ///< along length and width
+  double length = 0.0, width = 0.0;  ///< m
+  /// Along length and width, of equal rectangles; or the .msh file of a mesh of that length and width.
+  std::array<unsigned, 2> elements{};
+  std::filesystem::path mesh;
   int degree = 0;
   double young_modulus = 0.0, poisson_ratio = 0.0, density = 0.0;
   Plane plane = Plane::stress;

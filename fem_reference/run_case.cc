@@ -15,6 +15,7 @@ CaseResult run_case(const StripCase& strip, const StripModel& model) {
   const std::vector<double> inverse = inverse_mass(strip, model, stiffness);
   CaseResult result;
   result.dofs = 2 * stiffness.node_count();
+  result.elements = model.mesh.element_count();
   result.critical_time_step = critical_time_step(stiffness, inverse);
   const StripProblem problem{strip, model, stiffness, inverse};
   if (strip.time.integrator == Integrator::exact) {

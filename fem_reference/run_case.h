@@ -15,6 +15,7 @@ struct CaseResult {
   std::vector<double> time;     ///< of the n samples, s
   std::vector<double> signals;  ///< n x receiver_values(model), m
   std::uint64_t dofs = 0;       ///< two a node, fixed ones included, periodic ones once
+  std::uint64_t elements = 0;
   double critical_time_step = 0.0, time_step = 0.0;  ///< s
   double sample_interval = 0.0;                      ///< s
   std::uint64_t steps = 0;                           ///< done

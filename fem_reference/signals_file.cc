@@ -147,8 +147,10 @@ void SignalsFile::write(const StripCase& strip, const CaseResult& result) {
   };
   write_dataset(group, "points", {samples, points, 2}, columns(0, points));
   write_dataset(group, "sections", {samples, sections, 2}, columns(points, sections));
-  const std::array<std::uint64_t, 2> elements{strip.elements[0], strip.elements[1]};
+  std::array<std::uint64_t, 2> elements{strip.elements[0], strip.elements[1]};
+  if (!strip.mesh.empty()) elements = {result.elements, 1};
   write_attribute(group, "elements", H5T_STD_U64LE, H5T_NATIVE_UINT64, {2}, elements.data());
+  write_integer(group, "element_count", result.elements);
   write_integer(group, "degree", static_cast<std::uint64_t>(strip.degree));
   write_integer(group, "dofs", result.dofs);
   write_integer(group, "steps", result.steps);

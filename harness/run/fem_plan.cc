@@ -101,6 +101,7 @@ FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli) {
   fem.column_spacing = mean_column_spacing(assembly, box);
   if (scene.continuum) {
     fem.degree = static_cast<int>(scene.continuum->degree);
+    if (scene.continuum->mesh) fem.mesh = std::filesystem::absolute(*scene.continuum->mesh).string();
     fem.elements = {static_cast<int>(scene.continuum->elements[0]), static_cast<int>(scene.continuum->elements[1])};
   }
   // What the scene does not write is the discs' default; the continuum is exact in time unless it asks for less.

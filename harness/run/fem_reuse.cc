@@ -70,9 +70,9 @@ FemReuse share_runs(std::span<const FemCase> cases) {
   std::vector<std::vector<double>> problems;
   for (const FemCase& c : cases) {
     const std::vector<double> problem = numbers(c);
-    const auto known = std::find_if(problems.begin(), problems.end(), [&](const auto& other) { return agree(problem, other); });
-    const auto run = static_cast<std::size_t>(known - problems.begin());
-    if (known == problems.end()) {
+    std::size_t run = 0;
+    while (run < problems.size() && !(agree(problem, problems[run]) && reuse.runs[run].mesh == c.mesh)) ++run;
+    if (run == problems.size()) {
       problems.push_back(problem);
       reuse.runs.push_back(c);
     }

@@ -11,6 +11,7 @@
 #include "harness/io/hdf5.h"
 #include "harness/io/json.h"
 #include "harness/io/subprocess.h"
+#include "harness/references/plane_elasticity.h"
 #include "harness/run/fem_reuse.h"
 #include "harness/run/temporary_folder.h"
 
@@ -50,7 +51,6 @@ Json case_json(const FemCase& c) {
   Json j{{"id", c.id},
          {"length", c.length},
          {"width", c.width},
-         {"elements", c.elements},
          {"degree", c.degree},
          {"young_modulus", c.material.young_modulus},
          {"poisson_ratio", c.material.poisson_ratio},
@@ -62,6 +62,11 @@ Json case_json(const FemCase& c) {
          {"time", {{"integrator", c.integrator == Integrator::exact ? "exact" : "verlet"}, {"end", c.end}}},
          {"receivers", {{"points", c.points}, {"sections", c.sections}}},
          {"sample_every", c.sample_every}};
+  if (c.mesh.empty()) {
+    j["elements"] = c.elements;
+  } else {
+    j["mesh"] = c.mesh;
+  }
   if (const auto* seconds = std::get_if<StepSeconds>(&c.step)) {
     j["time"]["step"] = seconds->seconds;
   } else {
@@ -100,6 +105,7 @@ FemResult read_result(const Hdf5Group& root, const FemCase& c) {
   r.status = g.string_attribute("status");
   r.degree = c.degree;
   r.elements = c.elements;
+  if (!c.mesh.empty()) r.elements = {static_cast<int>(g.int_attribute("element_count")), 1};
   r.dofs = static_cast<long>(g.int_attribute("dofs"));
   r.steps = static_cast<long>(g.int_attribute("steps"));
   r.critical_time_step = g.double_attribute("critical_time_step");
@@ -143,6 +149,7 @@ std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::functi
       run_program(program, {input.string(), "-o", output.string(), "--progress"}, [&](std::string_view line) {
         if (on_case && line.starts_with("done ")) finished(done++);
       });
+  if (run.exit_code == 2) throw InputError("ddem-fem: " + run.standard_error);
   // 3: a case was unstable; the others are in the file, and it says so itself.
   if (!run.succeeded() && run.exit_code != 3) {
     throw MachineError("ddem-fem failed (" + run.status() + "): " + run.standard_error);
@@ -176,6 +183,11 @@ ContinuumMaterial continuum_material(const Scene& scene, const std::optional<Sce
     m.young_modulus = scene.continuum->young_modulus.value_or(m.young_modulus);
     m.poisson_ratio = scene.continuum->poisson_ratio.value_or(m.poisson_ratio);
     m.density = scene.continuum->density.value_or(m.density);
+    if (scene.continuum->plane == Plane::strain) {
+      const auto plane = references::plane_strain_constants(m.young_modulus, m.poisson_ratio);
+      m.young_modulus = plane.young_modulus;
+      m.poisson_ratio = plane.poisson_ratio;
+    }
   }
   return m;
 }

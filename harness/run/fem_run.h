@@ -27,6 +27,7 @@ struct FemCase {
   std::string id;
   double length = 0.0, width = 0.0;
   std::array<int, 2> elements{66, 8};
+  std::string mesh;  ///< file of a mesh instead of elements
   int degree = 4;
   ContinuumMaterial material;
   bool periodic = false;  ///< top and bottom
@@ -59,7 +60,7 @@ struct FemResult {
 /// other units are solved once (fem_reuse.h). `on_case` hears of each case that is finished. Throws MachineError if the program is missing or dies, SolverError if its output cannot be used.
 std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case = {});
 
-/// The material of a scene's continuum: [continuum] where given, else the static moduli of the assembly; for a bar the
+/// The plane moduli of a scene's continuum: [continuum] where given, else the static moduli of the assembly; for a bar the
 /// Young's modulus and contraction of the very strip, for shear and P the directional stiffness.
 ContinuumMaterial continuum_material(const Scene& scene, const std::optional<SceneModuli>& moduli, Wave wave);
 
