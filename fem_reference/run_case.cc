@@ -8,10 +8,11 @@
 
 namespace ddem::fem {
 
-CaseResult run_case(const StripCase& strip, const StripModel& model) {
+CaseResult run_case(const StripCase& strip, const StripModel& model, Team& team) {
   const auto start = std::chrono::steady_clock::now();
-  const ElasticOperator stiffness(
+  ElasticOperator stiffness(
       model.mesh, plane_material(strip.young_modulus, strip.poisson_ratio, strip.density, strip.plane));
+  stiffness.use(team);
   const std::vector<double> inverse = inverse_mass(strip, model, stiffness);
   CaseResult result;
   result.dofs = 2 * stiffness.node_count();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem_reference/cases.h"
+#include "fem_reference/kernel/team.h"
 #include "fem_reference/strip_model.h"
 
 namespace ddem::fem {
@@ -30,6 +31,7 @@ struct CaseResult {
 
 /// Throws CaseError if the case asks for more steps or samples than can be held, std::runtime_error if the
 /// critical step cannot be found.
-CaseResult run_case(const StripCase& strip, const StripModel& model);
+/// The same bits for any number of threads in `team`.
+CaseResult run_case(const StripCase& strip, const StripModel& model, Team& team);
 
 }  // namespace ddem::fem

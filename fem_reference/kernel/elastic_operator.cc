@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -65,6 +66,7 @@ ElasticOperator::ElasticOperator(const ElementMesh& mesh, const PlaneMaterial& m
   weights_ = std::move(rule.weights);
   add_mass(mesh, material.density);
   pack(mesh, material);
+  colour_blocks();
 }
 
 void ElasticOperator::add_mass(const ElementMesh& mesh, double density) {
@@ -102,14 +104,47 @@ void ElasticOperator::pack(const ElementMesh& mesh, const PlaneMaterial& materia
   }
 }
 
+void ElasticOperator::colour_blocks() {
+  constexpr std::size_t blocks_at_most = 128;
+  constexpr unsigned most_colours = 64;
+  const std::size_t nodes_per_batch = lanes * weights_.size() * weights_.size();
+  const std::size_t batches = batch_nodes_.size() / nodes_per_batch;
+  const std::size_t size = (batches + blocks_at_most - 1) / blocks_at_most;
+  std::vector<std::uint64_t> taken(mass_.size() + 1, 0);  // colours of the blocks that a node belongs to
+  for (std::size_t first = 0; first < batches; first += size) {
+    const Block block{first, std::min(batches, first + size)};
+    const auto begin = batch_nodes_.begin() + static_cast<std::ptrdiff_t>(block.first_batch * nodes_per_batch);
+    const auto end = batch_nodes_.begin() + static_cast<std::ptrdiff_t>(block.last_batch * nodes_per_batch);
+    std::uint64_t forbidden = 0;
+    for (auto node = begin; node != end; ++node) forbidden |= taken[*node];
+    const auto colour = static_cast<unsigned>(std::countr_one(forbidden));
+    if (colour >= most_colours) throw std::invalid_argument("too many elements meet at a node");
+    for (auto node = begin; node != end; ++node) taken[*node] |= std::uint64_t{1} << colour;
+    if (colour == colours_.size()) colours_.emplace_back();
+    colours_[colour].push_back(block);
+  }
+}
+
 void ElasticOperator::apply(std::span<const double> u, std::span<double> f) const {
   if (u.size() != vector_size() || f.size() != vector_size()) {
     throw std::invalid_argument("displacement and force must have vector_size() entries");
   }
-  std::fill(f.begin(), f.end(), 0.0);
-  const KernelData data{batch_nodes_.size() / (lanes * weights_.size() * weights_.size()),
-                        batch_nodes_.data(), batch_coefficients_.data(), derivative_.data(), weights_.data()};
-  kernel_(data, u.data(), f.data());
+  team_->run([&](int thread) { apply_share(u, f, thread); });
+}
+
+void ElasticOperator::apply_share(std::span<const double> u, std::span<double> f, int thread) const {
+  const auto [first, last] = team_->part(f.size(), thread);
+  std::fill(f.begin() + static_cast<std::ptrdiff_t>(first), f.begin() + static_cast<std::ptrdiff_t>(last), 0.0);
+  team_->meet();
+  for (const std::vector<Block>& blocks : colours_) {
+    const auto [first_block, last_block] = team_->part(blocks.size(), thread);
+    for (std::size_t b = first_block; b < last_block; ++b) {
+      const KernelData data{blocks[b].first_batch,      blocks[b].last_batch, batch_nodes_.data(),
+                            batch_coefficients_.data(), derivative_.data(),   weights_.data()};
+      kernel_(data, u.data(), f.data());
+    }
+    team_->meet();
+  }
 }
 
 }  // namespace ddem::fem

@@ -25,13 +25,17 @@ Leapfrog::Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse
 }
 
 void Leapfrog::step() {
-  stiffness_.apply(u_, force_);
   // v_{1/2} takes half a step from v_0: the start is second order, and E is that of the later steps.
   const double kick = steps_done_ == 0 ? 0.5 * time_step_ : time_step_;
-  for (std::size_t k = 0; k < u_.size(); ++k) {
-    v_[k] -= kick * (inverse_mass_[k] * force_[k]);
-    u_[k] += time_step_ * v_[k];
-  }
+  Team& team = stiffness_.team();
+  team.run([&](int thread) {
+    stiffness_.apply_share(u_, force_, thread);
+    const auto [first, last] = team.part(u_.size(), thread);
+    for (std::size_t k = first; k < last; ++k) {
+      v_[k] -= kick * (inverse_mass_[k] * force_[k]);
+      u_[k] += time_step_ * v_[k];
+    }
+  });
   ++steps_done_;
 }
 

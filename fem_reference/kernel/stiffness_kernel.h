@@ -13,7 +13,7 @@ inline constexpr std::size_t lanes = 8;
 inline constexpr std::size_t coefficients_per_element = 10;
 
 struct KernelData {
-  std::size_t batches = 0;
+  std::size_t first_batch = 0, last_batch = 0;  ///< of those to do, the last one excluded
   const std::uint32_t* nodes = nullptr;  ///< [batch][point][lane]
   const double* coefficients = nullptr;  ///< [batch][coefficient][lane], or [batch][point][coefficient][lane]
   const double* derivative = nullptr;    ///< (degree+1)^2, GaussLobatto::derivative

@@ -93,7 +93,7 @@ void apply(const KernelData& data, const double* u, double* f) {
     for (int k = 0; k < n; ++k) dw[q * n + k] = data.weights[q] * data.derivative[q * n + k];
   }
   Element<n> e;
-  for (std::size_t batch = 0; batch < data.batches; ++batch) {
+  for (std::size_t batch = data.first_batch; batch < data.last_batch; ++batch) {
     const std::uint32_t* nodes = data.nodes + batch * n * n * lanes;
     gather<n>(nodes, u, e);
     for (int component = 0; component < 2; ++component) {

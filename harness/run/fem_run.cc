@@ -127,7 +127,7 @@ double ContinuumMaterial::wave_speed(Wave wave, bool periodic) const {
   return std::sqrt(periodic ? e / (1.0 - nu * nu) : e);
 }
 
-std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case) {
+std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case, std::int64_t threads) {
   if (cases.empty()) return {};
   const FemReuse reuse = share_runs(cases);
   // Runs are named by their number; a caller's names need not be those of groups, nor differ.
@@ -146,10 +146,10 @@ std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::functi
   write_json(input, document);
   std::size_t done = 0;
   const SubprocessResult run =
-      run_program(program, {input.string(), "-o", output.string(), "--progress"}, [&](std::string_view line) {
+      run_program(program, {input.string(), "-o", output.string(), "--progress", "--threads", std::to_string(threads)}, [&](std::string_view line) {
         if (on_case && line.starts_with("done ")) finished(done++);
       });
-  if (run.exit_code == 2) throw InputError("ddem-fem: " + run.standard_error);
+  if (run.exit_code == 2) throw InputError(run.standard_error);
   // 3: a case was unstable; the others are in the file, and it says so itself.
   if (!run.succeeded() && run.exit_code != 3) {
     throw MachineError("ddem-fem failed (" + run.status() + "): " + run.standard_error);

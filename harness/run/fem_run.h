@@ -58,7 +58,7 @@ struct FemResult {
 
 /// Runs all cases in one process of ddem-fem, which stands beside the running program; cases that are one problem in
 /// other units are solved once (fem_reuse.h). `on_case` hears of each case that is finished. Throws MachineError if the program is missing or dies, SolverError if its output cannot be used.
-std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case = {});
+std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case = {}, std::int64_t threads = 1);
 
 /// The plane moduli of a scene's continuum: [continuum] where given, else the static moduli of the assembly; for a bar the
 /// Young's modulus and contraction of the very strip, for shear and P the directional stiffness.

@@ -180,6 +180,20 @@ TEST_P(Kernel, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
+TEST_P(Kernel, AnyNumberOfThreadsGivesTheSameBits) {
+  Rectangle larger = rectangle;
+  larger.nx = 40;
+  const auto mesh = make_rectangle(larger);
+  ElasticOperator stiffness(mesh.mesh, material);
+  const auto u = random_vector(stiffness.vector_size());
+  const auto expected = times(stiffness, u);
+  for (const int threads : {2, 3, 7}) {
+    Team team(threads);
+    stiffness.use(team);
+    for (int repeat = 0; repeat < 3; ++repeat) ASSERT_EQ(times(stiffness, u), expected) << threads;
+  }
+}
+
 TEST_P(Kernel, PeriodicNodesAreOneNode) {
   // A field of the period's own wavelength: the periodic mesh must give the force of the middle of three
   // copies.
