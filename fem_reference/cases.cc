@@ -36,9 +36,10 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 const Choices<Wave> waves{{"longitudinal", Wave::longitudinal}, {"shear", Wave::shear}};
 const Choices<Shape> shapes{
-    {"column", Shape::column}, {"cosine", Shape::cosine}, {"gaussian", Shape::gaussian}};
-const Choices<RightEdge> right_edges{
-    {"free", RightEdge::free}, {"fixed_x", RightEdge::fixed_x}, {"fixed", RightEdge::fixed}};
+    {"column", Shape::column}, {"cosine", Shape::cosine}, {"gaussian", Shape::gaussian}, {"standing", Shape::standing}};
+const Choices<Field> fields{{"displacement", Field::displacement}, {"velocity", Field::velocity}};
+const Choices<Integrator> integrators{{"verlet", Integrator::verlet}, {"exact", Integrator::exact}};
+const Choices<End> ends{{"free", End::free}, {"fixed_x", End::fixed_x}, {"fixed", End::fixed}};
 const Choices<Plane> planes{{"stress", Plane::stress}, {"strain", Plane::strain}};
 const Choices<bool> top_bottoms{{"free", false}, {"periodic", true}};
 
@@ -102,7 +103,17 @@ class Table {
 
   template <typename Value>
   Value choice(const std::string& name, const Choices<Value>& choices) {
-    const Json* value = required(name);
+    return choice(required(name), name, choices);
+  }
+
+  /// The first of `choices` where the key may be absent, and is.
+  template <typename Value>
+  Value optional_choice(const std::string& name, const Choices<Value>& choices) {
+    return choice(optional(name), name, choices);
+  }
+
+  template <typename Value>
+  Value choice(const Json* value, const std::string& name, const Choices<Value>& choices) {
     if (value == nullptr) return choices.front().second;
     std::vector<std::string> names;
     for (const auto& [spelling, result] : choices) {
@@ -143,9 +154,15 @@ InitialPulse read_initial(const Json& json, const std::string& where, Problems& 
     const Json* value = needed ? table.required(name) : table.optional(name);
     return value == nullptr ? otherwise : table.number(value, name, needed ? sign : Sign::any);
   };
-  pulse.width = needs("width", pulse.shape != Shape::column, Sign::positive, 1.0);
+  pulse.field = table.optional_choice("field", fields);
+  pulse.width = needs("width", pulse.shape == Shape::cosine || pulse.shape == Shape::gaussian, Sign::positive, 1.0);
   pulse.spacing = needs("spacing", pulse.shape == Shape::column, Sign::positive, 1.0);
   pulse.center = needs("center", false, Sign::any, 0.0);
+  const bool standing = pulse.shape == Shape::standing;
+  pulse.phase_speed = needs("phase_speed", standing, Sign::positive, 1.0);
+  const Json* half_waves = standing ? table.required("half_waves") : table.optional("half_waves");
+  pulse.half_waves = static_cast<unsigned>(table.count(half_waves, "half_waves", 10'000));
+  if (standing && pulse.wave != Wave::longitudinal) table.problem("a standing wave is longitudinal");
   if (pulse.amplitude == 0.0) table.problem("amplitude 0: nothing would move");
   table.finish();
   return pulse;
@@ -166,7 +183,12 @@ EdgeDrive read_drive(const Json& json, const std::string& where, Problems& probl
 TimeSpan read_time(const Json& json, const std::string& where, Problems& problems) {
   Table table(json, where, problems);
   TimeSpan time;
-  time.step_fraction = table.number("step_fraction", Sign::positive);
+  time.integrator = table.optional_choice("integrator", integrators);
+  const Json* step = table.optional("step");
+  const Json* fraction = table.optional("step_fraction");
+  if ((step == nullptr) == (fraction == nullptr)) table.problem("needs either step_fraction or step");
+  if (step != nullptr) time.step = table.number(step, "step", Sign::positive);
+  if (fraction != nullptr) time.step_fraction = table.number(fraction, "step_fraction", Sign::positive);
   if (time.step_fraction > 2.0) {
     table.complain("step_fraction", time.step_fraction, "must be at most 2 (stable up to 1)", 0);
   }
@@ -218,7 +240,11 @@ void read_mesh(Table& table, StripCase& strip) {
   strip.width = table.number("width", Sign::positive);
   strip.degree = static_cast<int>(table.count(table.required("degree"), "degree", max_degree));
   strip.elements = {1, 1};
-  const Json* elements = table.required("elements");
+  const Json* elements = table.optional("elements");
+  const Json* mesh = table.optional("mesh");
+  if ((elements == nullptr) == (mesh == nullptr)) table.problem("needs either elements or mesh");
+  if (mesh != nullptr && !mesh->is_string()) table.complain("mesh", *mesh, "must be the name of a file", 0);
+  if (mesh != nullptr && mesh->is_string()) strip.mesh = mesh->get<std::string>();
   if (elements == nullptr) return;
   if (!elements->is_array() || elements->size() != 2) {
     table.complain("elements", *elements, "must be [nx, ny]", 0);
@@ -271,16 +297,19 @@ StripCase read_case(const Json& json, std::size_t index, std::set<std::string>& 
   read_mesh(table, strip);
   read_material(table, strip);
   strip.periodic = table.choice("top_bottom", top_bottoms);
-  strip.right = table.choice("right", right_edges);
-  if (const Json* left = table.optional("left"); left != nullptr && *left != "free") {
-    table.complain("left", *left, "must be \"free\"", 0);
-  }
+  strip.left = table.optional_choice("left", ends);
+  strip.right = table.choice("right", ends);
   const Json* initial = table.optional("initial");
   const Json* drive = table.optional("drive");
   if (initial != nullptr) strip.initial = read_initial(*initial, table.key("initial"), problems);
   if (drive != nullptr) strip.drive = read_drive(*drive, table.key("drive"), problems);
   if (json.is_object() && (initial == nullptr) == (drive == nullptr)) {
     table.problem("needs either initial or drive");
+  }
+  if (strip.drive && strip.left != End::free) table.problem("left must be \"free\" where a drive moves it");
+  if (strip.initial && strip.initial->shape == Shape::standing) {
+    const bool own_edges = strip.left == End::fixed_x && strip.right == End::fixed_x && !strip.periodic;
+    if (!own_edges) table.problem("a standing wave needs left and right \"fixed_x\" and top_bottom \"free\"");
   }
   if (const Json* time = table.required("time")) strip.time = read_time(*time, table.key("time"), problems);
   if (const Json* receivers = table.required("receivers")) {

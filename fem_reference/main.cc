@@ -27,6 +27,7 @@ const std::string version =
 struct Arguments {
   std::string cases, output;
   bool progress = false;
+  int threads = 1;
 };
 
 int complain(Exit code, const std::string& message) {
@@ -35,9 +36,9 @@ int complain(Exit code, const std::string& message) {
 }
 
 // A failed solution is a status of its case; the other cases still run.
-CaseResult solve(const StripCase& strip, const StripModel& model) {
+CaseResult solve(const StripCase& strip, const StripModel& model, Team& team) {
   try {
-    return run_case(strip, model);
+    return run_case(strip, model, team);
   } catch (const std::runtime_error& error) {
     CaseResult failed;
     failed.status = fmt::format("failed: {}", error.what());
@@ -48,10 +49,11 @@ CaseResult solve(const StripCase& strip, const StripModel& model) {
 int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
   SignalsFile signals(arguments.output, version);
   StripModeller modeller;
+  Team team(arguments.threads);
   bool all_ok = true;
   for (const StripCase& strip : cases) {
     const StripModel model = modeller.model(strip);
-    const CaseResult result = solve(strip, model);
+    const CaseResult result = solve(strip, model, team);
     if (!result.ok()) complain(solver_failed, fmt::format("case \"{}\": {}", strip.id, result.status));
     all_ok = all_ok && result.ok();
     signals.write(strip, result);
@@ -88,6 +90,7 @@ int main(int argc, char** argv) {
   app.add_option("-o", arguments.output, "signals file (HDF5), one group a case")->required();
   app.add_flag("--progress", arguments.progress,
                "print \"done ID\" for each finished case to standard error");
+  app.add_option("--threads", arguments.threads, "the same bits for any number")->check(CLI::Range(1, 1024));
   app.set_version_flag("--version", version);
   try {
     app.parse(argc, argv);

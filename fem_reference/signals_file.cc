@@ -135,15 +135,28 @@ void SignalsFile::write(const StripCase& strip, const CaseResult& result) {
   Handle group(H5Gcreate2(open_->file, strip.id.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   const hsize_t samples = result.time.size();
   write_dataset(group, "time", {samples}, result.time);
-  write_dataset(group, "points", {samples, strip.receivers.points.size(), 2}, result.points);
-  write_dataset(group, "sections", {samples, strip.receivers.sections.size(), 2}, result.sections);
-  const std::array<std::uint64_t, 2> elements{strip.elements[0], strip.elements[1]};
+  const std::size_t points = strip.receivers.points.size(), sections = strip.receivers.sections.size();
+  const auto columns = [&](std::size_t first, std::size_t count) {
+    std::vector<double> part;
+    part.reserve(samples * 2 * count);
+    for (std::size_t row = 0; row < samples; ++row) {
+      const auto begin = result.signals.begin() + static_cast<std::ptrdiff_t>(2 * (row * (points + sections) + first));
+      part.insert(part.end(), begin, begin + static_cast<std::ptrdiff_t>(2 * count));
+    }
+    return part;
+  };
+  write_dataset(group, "points", {samples, points, 2}, columns(0, points));
+  write_dataset(group, "sections", {samples, sections, 2}, columns(points, sections));
+  std::array<std::uint64_t, 2> elements{strip.elements[0], strip.elements[1]};
+  if (!strip.mesh.empty()) elements = {result.elements, 1};
   write_attribute(group, "elements", H5T_STD_U64LE, H5T_NATIVE_UINT64, {2}, elements.data());
+  write_integer(group, "element_count", result.elements);
   write_integer(group, "degree", static_cast<std::uint64_t>(strip.degree));
   write_integer(group, "dofs", result.dofs);
   write_integer(group, "steps", result.steps);
   write_number(group, "critical_time_step", result.critical_time_step);
   write_number(group, "time_step", result.time_step);
+  write_number(group, "sample_interval", result.sample_interval);
   write_number(group, "solve_seconds", result.solve_seconds);
   if (result.energy_drift) write_number(group, "energy_drift", *result.energy_drift);
   write_text(group, "status", result.status);

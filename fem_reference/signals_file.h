@@ -1,8 +1,8 @@
 #pragma once
 // The signals file: HDF5, one group a case.
 //   time (n), points (n x npoints x 2), sections (n x nsections x 2): doubles, SI units
-//   attributes of the group: degree, elements (2), dofs, steps: integers; critical_time_step, time_step,
-//   solve_seconds, energy_drift (only if it could be measured): doubles; status: text
+//   attributes of the group: degree, elements (2; of a user's mesh: all, and 1), element_count, dofs, steps: integers; critical_time_step, time_step,
+//   sample_interval, solve_seconds, energy_drift (only if it could be measured): doubles; status: text
 //   attributes of the file: schema = 1, program: text
 // Text is of variable length, UTF-8. deal.II's own classes for HDF5 check for errors in debug mode only; a
 // full disk must not pass unseen, so this is the C interface.

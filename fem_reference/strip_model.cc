@@ -5,63 +5,23 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/mapping_q1.h>
-#include <deal.II/grid/grid_in.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <limits>
 #include <map>
 #include <numeric>
 
+#include "fem_reference/grids.h"
 #include "fem_reference/kernel/gauss_lobatto.h"
+#include "fem_reference/mesh_receivers.h"
 #include "meshes/strip_mesh.h"
 
 namespace ddem::fem {
 namespace {
 
-using Triangulation = dealii::Triangulation<2>;
 using Cell = dealii::DoFHandler<2>::active_cell_iterator;
 using dealii::types::global_dof_index;
-
-// gmsh places the vertices of a transfinite curve with an error of 1e-9 of its length: too much for deal.II's
-// matching of periodic faces. In units of elements they are whole numbers.
-void snap_vertices(Triangulation& grid) {
-  dealii::GridTools::transform(
-      [](const dealii::Point<2>& vertex) {
-        const dealii::Point<2> snapped(std::round(vertex[0]), std::round(vertex[1]));
-        if (snapped.distance(vertex) > 1e-3) throw std::runtime_error("gmsh's mesh is not transfinite");
-        return snapped;
-      },
-      grid);
-}
-
-// The grid is in units of elements, [0, nx] x [0, ny]: gmsh's and deal.II's absolute tolerances then suit a
-// strip of any size, and all strips with the same counts share one mesh.
-std::unique_ptr<Triangulation> read_grid(unsigned nx, unsigned ny) {
-  std::string name = std::filesystem::temp_directory_path() / "ddem-fem-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a directory like " + name);
-  const std::filesystem::path folder = name;
-  auto grid = std::make_unique<Triangulation>();
-  try {
-    meshes::write_strip_mesh({double(nx), double(ny), nx, ny}, folder / "strip.msh");
-    std::ifstream stream(folder / "strip.msh");
-    dealii::GridIn<2> reader(*grid);
-    reader.read_msh(stream);
-  } catch (...) {
-    std::filesystem::remove_all(folder);
-    throw;
-  }
-  std::filesystem::remove_all(folder);
-  if (grid->n_active_cells() != std::size_t{nx} * ny) throw std::runtime_error("gmsh made another mesh");
-  snap_vertices(*grid);
-  return grid;
-}
 
 // Degrees of freedom of deal.II's scalar element, one a node, and where they went in the model.
 struct Nodes {
@@ -113,6 +73,12 @@ Nodes number_nodes(const dealii::DoFHandler<2>& dofs, bool periodic) {
   return nodes;
 }
 
+// Of every group of `count`.
+void keep_first_of(std::size_t count, std::vector<std::array<double, 4>>& values) {
+  for (std::size_t k = 0; k * count < values.size(); ++k) values[k] = values[k * count];
+  values.resize(values.size() / count);
+}
+
 ElementMesh make_elements(const Nodes& nodes, double hx, double hy) {
   const auto& fe = dynamic_cast<const dealii::FE_Q<2>&>(nodes.dofs.get_fe());
   const std::vector<unsigned> lexicographic = fe.get_poly_space_numbering_inverse();
@@ -122,6 +88,8 @@ ElementMesh make_elements(const Nodes& nodes, double hx, double hy) {
     return std::pair(std::llround(cell->center()[0] * 2.0), std::llround(cell->center()[1] * 2.0));
   };
   std::sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) { return rank(a) < rank(b); });
+  const GaussLobatto rule = gauss_lobatto(static_cast<int>(fe.degree));
+  bool affine = true;
   ElementMesh mesh;
   mesh.degree = static_cast<int>(fe.degree);
   mesh.node_count = nodes.place.size();
@@ -129,63 +97,34 @@ ElementMesh make_elements(const Nodes& nodes, double hx, double hy) {
   for (const Cell& cell : cells) {
     cell->get_dof_indices(indices);
     for (const unsigned k : lexicographic) mesh.nodes.push_back(nodes.node_of_dof[indices[k]]);
-    const auto xi = cell->vertex(1) - cell->vertex(0), eta = cell->vertex(2) - cell->vertex(0);
-    if ((cell->vertex(3) - cell->vertex(0) - xi - eta).norm() > 1e-9) {
-      throw std::runtime_error("an element of the mesh is no parallelogram");
+    const auto corner = [&](unsigned k) { return cell->vertex(k); };
+    const auto twist = corner(3) - corner(2) - (corner(1) - corner(0));
+    affine = affine && twist.norm() < 1e-9;
+    for (const double eta : rule.points) {
+      for (const double xi : rule.points) {
+        const auto along = corner(1) - corner(0) + eta * twist, across = corner(2) - corner(0) + xi * twist;
+        mesh.jacobians.push_back({along[0] * hx, across[0] * hx, along[1] * hy, across[1] * hy});
+      }
     }
-    mesh.jacobians.push_back({xi[0] * hx, eta[0] * hx, xi[1] * hy, eta[1] * hy});
   }
+  if (affine) keep_first_of(mesh.points_per_element(), mesh.jacobians);
   return mesh;
 }
 
-class Weights {
- public:
-  explicit Weights(const Nodes& nodes) : nodes_(nodes), indices_(nodes.dofs.get_fe().n_dofs_per_cell()) {}
-
-  void add(const Cell& cell, const dealii::Point<2>& place, double factor) {
-    const auto& fe = nodes_.dofs.get_fe();
-    const auto unit = nodes_.mapping.transform_real_to_unit_cell(cell, place);
-    cell->get_dof_indices(indices_);
-    for (unsigned k = 0; k < indices_.size(); ++k) {
-      weights_[nodes_.node_of_dof[indices_[k]]] += factor * fe.shape_value(k, unit);
-    }
-  }
-
-  NodeWeights take() const { return {weights_.begin(), weights_.end()}; }
-
- private:
-  const Nodes& nodes_;
-  std::vector<global_dof_index> indices_;
-  std::map<std::uint32_t, double> weights_;
-};
-
-NodeWeights at_point(const Nodes& nodes, const dealii::Point<2>& place) {
-  const Cell cell = dealii::GridTools::find_active_cell_around_point(nodes.mapping, nodes.dofs, place).first;
-  Weights weights(nodes);
-  weights.add(cell, place, 1.0);
-  return weights.take();
-}
-
-// Average over the line at `x`: in each row of elements one element (its left edge included, and the right
-// edge of the strip) with the Gauss-Lobatto rule, exact for its polynomials.
-NodeWeights at_section(const Nodes& nodes, double x, unsigned nx, unsigned ny) {
-  const GaussLobatto rule = gauss_lobatto(static_cast<int>(nodes.dofs.get_fe().degree));
-  Weights weights(nodes);
-  const double column = std::min(std::floor(x), nx - 1.0);
-  for (const Cell& cell : nodes.dofs.active_cell_iterators()) {
-    if (std::floor(cell->center()[0]) != column) continue;
-    const double bottom = std::floor(cell->center()[1]);
-    for (std::size_t q = 0; q < rule.points.size(); ++q) {
-      weights.add(cell, {x, bottom + rule.points[q]}, rule.weights[q] / ny);
-    }
-  }
-  return weights.take();
+std::vector<std::uint32_t> nodes_of_edge(const Nodes& nodes, unsigned id) {
+  const dealii::IndexSet dofs = dealii::DoFTools::extract_boundary_dofs(nodes.dofs, dealii::ComponentMask(), {id});
+  std::vector<std::uint32_t> result;
+  for (const auto dof : dofs) result.push_back(nodes.node_of_dof[dof]);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());  // corners of periodic edges
+  return result;
 }
 
 }  // namespace
 
 struct StripModeller::Meshes {
-  std::map<std::pair<unsigned, unsigned>, std::unique_ptr<Triangulation>> grids;
+  std::map<std::pair<unsigned, unsigned>, Grid> rectangles;
+  std::map<std::filesystem::path, Grid> users;
 };
 
 StripModeller::StripModeller() : meshes_(std::make_unique<Meshes>()) {}
@@ -193,26 +132,32 @@ StripModeller::~StripModeller() = default;
 
 StripModel StripModeller::model(const StripCase& strip) {
   const auto [nx, ny] = strip.elements;
-  auto& grid = meshes_->grids[{nx, ny}];
-  if (grid == nullptr) grid = read_grid(nx, ny);
-  dealii::DoFHandler<2> dofs(*grid);
+  auto& grid = strip.mesh.empty() ? meshes_->rectangles[{nx, ny}] : meshes_->users[strip.mesh];
+  if (grid.triangulation == nullptr) {
+    grid = strip.mesh.empty() ? rectangle_grid(nx, ny) : user_grid(strip.mesh, strip.length, strip.width);
+  }
+  dealii::DoFHandler<2> dofs(*grid.triangulation);
   dofs.distribute_dofs(dealii::FE_Q<2>(strip.degree));  // on Gauss-Lobatto points
   const Nodes nodes = number_nodes(dofs, strip.periodic);
 
-  const double hx = strip.length / nx, hy = strip.width / ny;
+  const double hx = strip.length / grid.length, hy = strip.width / grid.width;
   StripModel model;
   model.mesh = make_elements(nodes, hx, hy);
-  for (std::uint32_t node = 0; node < nodes.place.size(); ++node) {
-    const double x = nodes.place[node][0];
-    if (x < 1e-6) model.left_nodes.push_back(node);
-    if (x > nx - 1e-6) model.right_nodes.push_back(node);
-    model.x.push_back(x * hx);
+  model.left_nodes = nodes_of_edge(nodes, meshes::left_id);
+  model.right_nodes = nodes_of_edge(nodes, meshes::right_id);
+  for (const auto& place : nodes.place) {
+    model.x.push_back(place[0] * hx);
+    model.y.push_back(place[1] * hy);
   }
-  for (const auto& [x, y] : strip.receivers.points) {
-    model.points.push_back(at_point(nodes, {std::min(x / hx, double(nx)), std::min(y / hy, double(ny))}));
+  const StripGrid layout{nx, ny, strip.degree, strip.periodic};
+  const MeshNodes mesh_nodes{dofs, nodes.node_of_dof};
+  for (const auto& point : strip.receivers.points) {
+    const double x = std::min(point[0] / hx, grid.length), y = std::min(point[1] / hy, grid.width);
+    model.points.push_back(strip.mesh.empty() ? at_point(layout, x, y) : at_point(mesh_nodes, {x, y}));
   }
-  for (const double x : strip.receivers.sections) {
-    model.sections.push_back(at_section(nodes, std::min(x / hx, double(nx)), nx, ny));
+  for (const double place : strip.receivers.sections) {
+    const double x = std::min(place / hx, grid.length);
+    model.sections.push_back(strip.mesh.empty() ? at_section(layout, x) : at_section(mesh_nodes, x));
   }
   return model;
 }

@@ -4,20 +4,17 @@
 
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "fem_reference/cases.h"
 #include "fem_reference/kernel/element_mesh.h"
+#include "fem_reference/strip_receivers.h"
 
 namespace ddem::fem {
 
-/// A linear functional of nodal values: sum of weight * value(node).
-using NodeWeights = std::vector<std::pair<std::uint32_t, double>>;
-
 struct StripModel {
   ElementMesh mesh;       ///< nodes ordered along x first; periodic nodes merged
-  std::vector<double> x;  ///< of each node, m
+  std::vector<double> x, y;  ///< of each node, m
   std::vector<std::uint32_t> left_nodes, right_nodes;
   std::vector<NodeWeights> points;    ///< value at each point of the receivers
   std::vector<NodeWeights> sections;  ///< average over the height at each section, exact for the elements

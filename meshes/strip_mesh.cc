@@ -3,25 +3,11 @@
 #include <gmsh.h>
 
 #include <stdexcept>
-#include <string>
+
+#include "meshes/gmsh_session.h"
 
 namespace ddem::meshes {
 namespace {
-
-// gmsh as long as it is needed: no user's configuration, no output, signals and exit left to the program.
-class Session {
- public:
-  Session() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.AbortOnError", 2);
-    gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-    gmsh::option::setNumber("Mesh.Binary", 0);
-  }
-  ~Session() { gmsh::finalize(); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-};
 
 void make_mesh(const StripGeometry& g) {
   gmsh::model::add("strip");
@@ -47,17 +33,10 @@ void make_mesh(const StripGeometry& g) {
 }  // namespace
 
 void write_strip_mesh(const StripGeometry& geometry, const std::filesystem::path& file) {
-  try {
-    const Session session;
+  with_gmsh<std::runtime_error>([&] {
     make_mesh(geometry);
     gmsh::write(file.string());
-  } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("gmsh: ") + error.what());
-  } catch (const std::string& reason) {  // older interfaces throw strings
-    throw std::runtime_error("gmsh: " + reason);
-  } catch (int code) {
-    throw std::runtime_error("gmsh failed with code " + std::to_string(code));
-  }
+  });
 }
 
 }  // namespace ddem::meshes

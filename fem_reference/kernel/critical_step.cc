@@ -1,6 +1,6 @@
 #include "fem_reference/kernel/critical_step.h"
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -32,6 +32,27 @@ std::vector<double> pseudo_random_start(std::span<const double> root_inverse_mas
   return start;
 }
 
+// Whether all eigenvalues of the tridiagonal matrix lie below x: the pivots of T - x I are all negative.
+bool all_below(double x, const std::vector<double>& alpha, const std::vector<double>& beta) {
+  double pivot = alpha[0] - x;
+  for (std::size_t k = 1; k < alpha.size() && pivot < 0.0; ++k) pivot = alpha[k] - x - beta[k - 1] * beta[k - 1] / pivot;
+  return pivot < 0.0;
+}
+
+// By bisection to the last bits.
+double largest_eigenvalue(const std::vector<double>& alpha, const std::vector<double>& beta) {
+  double low = *std::max_element(alpha.begin(), alpha.end()), high = low;
+  for (std::size_t k = 0; k < alpha.size(); ++k) {  // Gershgorin
+    const double before = k > 0 ? beta[k - 1] : 0.0, after = k + 1 < alpha.size() ? beta[k] : 0.0;
+    high = std::max(high, alpha[k] + before + after);
+  }
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (all_below(middle, alpha, beta) ? high : low) = middle;
+  }
+  return high;
+}
+
 struct RitzValue {
   double value, residual;
 };
@@ -39,13 +60,20 @@ struct RitzValue {
 // The largest eigenpair of the tridiagonal matrix; beta_k times the last entry of its vector is the
 // residual of the Ritz vector, hence |lambda - theta| <= residual for an eigenvalue lambda.
 RitzValue largest_ritz_value(const std::vector<double>& alpha, const std::vector<double>& beta) {
-  const auto size = static_cast<Eigen::Index>(alpha.size());
-  const Eigen::VectorXd diagonal = Eigen::Map<const Eigen::VectorXd>(alpha.data(), size);
-  const Eigen::VectorXd below = Eigen::Map<const Eigen::VectorXd>(beta.data(), size - 1);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal, below);
-  if (solver.info() != Eigen::Success) throw std::runtime_error("Lanczos: tridiagonal eigenvalues failed");
-  return {solver.eigenvalues()[size - 1], std::abs(beta.back() * solver.eigenvectors()(size - 1, size - 1))};
+  const std::size_t size = alpha.size();
+  const double theta = largest_eigenvalue(alpha, beta);
+  // The vector from its last entry, 1, upwards: it grows that way once the iteration converges, so the
+  // recurrence is stable.
+  double below_entry = 0.0, entry = 1.0, norm2 = 1.0;
+  for (std::size_t k = size - 1; k > 0; --k) {
+    const double next_beta = k + 1 < size ? beta[k] : 0.0;
+    const double above = ((theta - alpha[k]) * entry - next_beta * below_entry) / beta[k - 1];
+    below_entry = entry;
+    entry = above;
+    norm2 += entry * entry;
+    if (norm2 > 1e200) break;
+  }
+  return {theta, beta.back() / std::sqrt(norm2)};
 }
 
 }  // namespace

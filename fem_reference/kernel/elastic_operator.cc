@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,8 +16,9 @@ double determinant(const std::array<double, 4>& j) {
 }
 
 void check(const ElementMesh& mesh) {
-  const std::size_t points = (mesh.degree + 1) * (mesh.degree + 1);
-  if (mesh.jacobians.empty() || mesh.nodes.size() != mesh.element_count() * points) {
+  const std::size_t points = mesh.points_per_element(), elements = mesh.element_count();
+  const bool fits = mesh.jacobians.size() == elements || mesh.jacobians.size() == elements * points;
+  if (elements == 0 || mesh.nodes.size() != elements * points || !fits) {
     throw std::invalid_argument("a mesh needs (degree+1)^2 nodes for each of its elements, and an element");
   }
   for (const std::uint32_t node : mesh.nodes) {
@@ -57,22 +59,24 @@ std::array<double, coefficients_per_element> coefficients(const std::array<doubl
 }  // namespace
 
 ElasticOperator::ElasticOperator(const ElementMesh& mesh, const PlaneMaterial& material, InstructionSet set)
-    : kernel_(stiffness_kernel(mesh.degree, set)) {
+    : kernel_(stiffness_kernel(mesh.degree, mesh.affine() ? ElementShape::parallelogram : ElementShape::general, set)) {
   check(mesh);
   GaussLobatto rule = gauss_lobatto(mesh.degree);
   derivative_ = std::move(rule.derivative);
   weights_ = std::move(rule.weights);
   add_mass(mesh, material.density);
   pack(mesh, material);
+  colour_blocks();
 }
 
 void ElasticOperator::add_mass(const ElementMesh& mesh, double density) {
   const std::size_t n = mesh.degree + 1;
   mass_.assign(mesh.node_count, 0.0);
   for (std::size_t element = 0; element < mesh.element_count(); ++element) {
-    const double total = density * determinant(mesh.jacobians[element]);
     for (std::size_t point = 0; point < n * n; ++point) {
-      mass_[mesh.nodes[element * n * n + point]] += total * weights_[point % n] * weights_[point / n];
+      const std::size_t place = element * n * n + point;
+      const double total = density * determinant(mesh.jacobians[mesh.affine() ? element : place]);
+      mass_[mesh.nodes[place]] += total * weights_[point % n] * weights_[point / n];
     }
   }
   if (std::any_of(mass_.begin(), mass_.end(), [](double m) { return !(m > 0.0); })) {
@@ -81,20 +85,43 @@ void ElasticOperator::add_mass(const ElementMesh& mesh, double density) {
 }
 
 void ElasticOperator::pack(const ElementMesh& mesh, const PlaneMaterial& material) {
-  const std::size_t points = (mesh.degree + 1) * (mesh.degree + 1);
+  const std::size_t points = mesh.points_per_element(), sets = mesh.affine() ? 1 : points;
   const std::size_t batches = (mesh.element_count() + lanes - 1) / lanes;
   // Lanes without an element work on the padding node with coefficients zero.
   batch_nodes_.assign(batches * points * lanes, static_cast<std::uint32_t>(mesh.node_count));
-  batch_coefficients_.assign(batches * coefficients_per_element * lanes, 0.0);
+  batch_coefficients_.assign(batches * sets * coefficients_per_element * lanes, 0.0);
   for (std::size_t element = 0; element < mesh.element_count(); ++element) {
     const std::size_t batch = element / lanes, lane = element % lanes;
     for (std::size_t point = 0; point < points; ++point) {
       batch_nodes_[(batch * points + point) * lanes + lane] = mesh.nodes[element * points + point];
     }
-    const auto c = coefficients(mesh.jacobians[element], material);
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      batch_coefficients_[(batch * coefficients_per_element + k) * lanes + lane] = c[k];
+    for (std::size_t point = 0; point < sets; ++point) {
+      const auto c = coefficients(mesh.jacobians[element * sets + point], material);
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        batch_coefficients_[((batch * sets + point) * coefficients_per_element + k) * lanes + lane] = c[k];
+      }
     }
+  }
+}
+
+void ElasticOperator::colour_blocks() {
+  constexpr std::size_t blocks_at_most = 128;
+  constexpr unsigned most_colours = 64;
+  const std::size_t nodes_per_batch = lanes * weights_.size() * weights_.size();
+  const std::size_t batches = batch_nodes_.size() / nodes_per_batch;
+  const std::size_t size = (batches + blocks_at_most - 1) / blocks_at_most;
+  std::vector<std::uint64_t> taken(mass_.size() + 1, 0);  // colours of the blocks that a node belongs to
+  for (std::size_t first = 0; first < batches; first += size) {
+    const Block block{first, std::min(batches, first + size)};
+    const auto begin = batch_nodes_.begin() + static_cast<std::ptrdiff_t>(block.first_batch * nodes_per_batch);
+    const auto end = batch_nodes_.begin() + static_cast<std::ptrdiff_t>(block.last_batch * nodes_per_batch);
+    std::uint64_t forbidden = 0;
+    for (auto node = begin; node != end; ++node) forbidden |= taken[*node];
+    const auto colour = static_cast<unsigned>(std::countr_one(forbidden));
+    if (colour >= most_colours) throw std::invalid_argument("too many elements meet at a node");
+    for (auto node = begin; node != end; ++node) taken[*node] |= std::uint64_t{1} << colour;
+    if (colour == colours_.size()) colours_.emplace_back();
+    colours_[colour].push_back(block);
   }
 }
 
@@ -102,10 +129,22 @@ void ElasticOperator::apply(std::span<const double> u, std::span<double> f) cons
   if (u.size() != vector_size() || f.size() != vector_size()) {
     throw std::invalid_argument("displacement and force must have vector_size() entries");
   }
-  std::fill(f.begin(), f.end(), 0.0);
-  const KernelData data{batch_nodes_.size() / (lanes * weights_.size() * weights_.size()),
-                        batch_nodes_.data(), batch_coefficients_.data(), derivative_.data(), weights_.data()};
-  kernel_(data, u.data(), f.data());
+  team_->run([&](int thread) { apply_share(u, f, thread); });
+}
+
+void ElasticOperator::apply_share(std::span<const double> u, std::span<double> f, int thread) const {
+  const auto [first, last] = team_->part(f.size(), thread);
+  std::fill(f.begin() + static_cast<std::ptrdiff_t>(first), f.begin() + static_cast<std::ptrdiff_t>(last), 0.0);
+  team_->meet();
+  for (const std::vector<Block>& blocks : colours_) {
+    const auto [first_block, last_block] = team_->part(blocks.size(), thread);
+    for (std::size_t b = first_block; b < last_block; ++b) {
+      const KernelData data{blocks[b].first_batch,      blocks[b].last_batch, batch_nodes_.data(),
+                            batch_coefficients_.data(), derivative_.data(),   weights_.data()};
+      kernel_(data, u.data(), f.data());
+    }
+    team_->meet();
+  }
 }
 
 }  // namespace ddem::fem

@@ -6,16 +6,18 @@
 
 namespace ddem::fem {
 
-Leapfrog::Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse_mass,
-                   std::vector<double> displacement, double time_step)
+Leapfrog::Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse_mass, State start,
+                   double time_step)
     : stiffness_(stiffness),
       inverse_mass_(std::move(inverse_mass)),
-      u_(std::move(displacement)),
-      v_(stiffness.vector_size(), 0.0),
+      u_(std::move(start.displacement)),
+      v_(std::move(start.velocity)),
       force_(stiffness.vector_size(), 0.0),
       time_step_(time_step) {
-  if (inverse_mass_.size() != stiffness.vector_size() || u_.size() != stiffness.vector_size()) {
-    throw std::invalid_argument("displacement and inverse mass must have vector_size() entries");
+  const std::size_t size = stiffness.vector_size();
+  if (v_.empty()) v_.assign(size, 0.0);
+  if (inverse_mass_.size() != size || u_.size() != size || v_.size() != size) {
+    throw std::invalid_argument("displacement, velocity and inverse mass must have vector_size() entries");
   }
   if (!(time_step > 0.0) || !std::isfinite(time_step)) {
     throw std::invalid_argument("the time step must be positive");
@@ -23,13 +25,17 @@ Leapfrog::Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse
 }
 
 void Leapfrog::step() {
-  stiffness_.apply(u_, force_);
-  // v_{1/2} takes half a step from rest: the start is second order, and E is that of the later steps.
+  // v_{1/2} takes half a step from v_0: the start is second order, and E is that of the later steps.
   const double kick = steps_done_ == 0 ? 0.5 * time_step_ : time_step_;
-  for (std::size_t k = 0; k < u_.size(); ++k) {
-    v_[k] -= kick * (inverse_mass_[k] * force_[k]);
-    u_[k] += time_step_ * v_[k];
-  }
+  Team& team = stiffness_.team();
+  team.run([&](int thread) {
+    stiffness_.apply_share(u_, force_, thread);
+    const auto [first, last] = team.part(u_.size(), thread);
+    for (std::size_t k = first; k < last; ++k) {
+      v_[k] -= kick * (inverse_mass_[k] * force_[k]);
+      u_[k] += time_step_ * v_[k];
+    }
+  });
   ++steps_done_;
 }
 

@@ -14,11 +14,15 @@ namespace ddem::fem {
 
 class Leapfrog {
  public:
-  /// Starts from rest at `displacement`. `inverse_mass` is 0 for a degree of freedom that does not follow
-  /// the equation of motion: fixed, or prescribed through displacement(). Both have vector_size() entries.
-  /// Keeps a reference to `stiffness`. Throws std::invalid_argument for wrong sizes or a step <= 0.
-  Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse_mass,
-           std::vector<double> displacement, double time_step);
+  /// At t = 0. Without velocities: at rest.
+  struct State {
+    std::vector<double> displacement, velocity;
+  };
+
+  /// `inverse_mass` is 0 for a degree of freedom that does not follow the equation of motion: fixed, or
+  /// prescribed through prescribe(). It and the start have vector_size() entries. Keeps a reference to
+  /// `stiffness`. Throws std::invalid_argument for wrong sizes or a step <= 0.
+  Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse_mass, State start, double time_step);
 
   void step();
 

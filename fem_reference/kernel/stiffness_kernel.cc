@@ -7,10 +7,10 @@
 
 namespace ddem::fem {
 
-extern const StiffnessKernel stiffness_kernels_baseline[8];
+extern const StiffnessKernel stiffness_kernels_baseline[element_shapes][8];
 #ifdef DDEM_FEM_X86_KERNELS
-extern const StiffnessKernel stiffness_kernels_avx2[8];
-extern const StiffnessKernel stiffness_kernels_avx512[8];
+extern const StiffnessKernel stiffness_kernels_avx2[element_shapes][8];
+extern const StiffnessKernel stiffness_kernels_avx512[element_shapes][8];
 #endif
 
 bool is_available(InstructionSet set) {
@@ -35,16 +35,17 @@ InstructionSet best_instruction_set() {
   return InstructionSet::baseline;
 }
 
-StiffnessKernel stiffness_kernel(int degree, InstructionSet set) {
+StiffnessKernel stiffness_kernel(int degree, ElementShape shape, InstructionSet set) {
   if (degree < 1 || degree > max_degree) {
     throw std::invalid_argument("no kernel of degree " + std::to_string(degree));
   }
   if (!is_available(set)) throw std::invalid_argument("the processor lacks this instruction set");
+  const int row = static_cast<int>(shape);
 #ifdef DDEM_FEM_X86_KERNELS
-  if (set == InstructionSet::avx512) return stiffness_kernels_avx512[degree - 1];
-  if (set == InstructionSet::avx2) return stiffness_kernels_avx2[degree - 1];
+  if (set == InstructionSet::avx512) return stiffness_kernels_avx512[row][degree - 1];
+  if (set == InstructionSet::avx2) return stiffness_kernels_avx2[row][degree - 1];
 #endif
-  return stiffness_kernels_baseline[degree - 1];
+  return stiffness_kernels_baseline[row][degree - 1];
 }
 
 }  // namespace ddem::fem

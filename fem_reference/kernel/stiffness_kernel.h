@@ -9,13 +9,13 @@
 namespace ddem::fem {
 
 inline constexpr std::size_t lanes = 8;
-/// Upper triangle of the symmetric 4 x 4 matrix of an element; see ElasticOperator.
+/// Upper triangle of the symmetric 4 x 4 matrix of an element or of one of its points; see ElasticOperator.
 inline constexpr std::size_t coefficients_per_element = 10;
 
 struct KernelData {
-  std::size_t batches = 0;
+  std::size_t first_batch = 0, last_batch = 0;  ///< of those to do, the last one excluded
   const std::uint32_t* nodes = nullptr;  ///< [batch][point][lane]
-  const double* coefficients = nullptr;  ///< [batch][coefficient][lane]
+  const double* coefficients = nullptr;  ///< [batch][coefficient][lane], or [batch][point][coefficient][lane]
   const double* derivative = nullptr;    ///< (degree+1)^2, GaussLobatto::derivative
   const double* weights = nullptr;       ///< degree + 1
 };
@@ -28,8 +28,12 @@ enum class InstructionSet { baseline, avx2, avx512 };
 bool is_available(InstructionSet set);
 /// The widest one of this processor.
 InstructionSet best_instruction_set();
-/// The one dispatch over degree (1..8) and instruction set. Throws std::invalid_argument for a degree or
+/// Whether an element's coefficients hold for all of its points.
+enum class ElementShape { parallelogram, general };
+inline constexpr int element_shapes = 2;
+
+/// The one dispatch over degree (1..8), shape and instruction set. Throws std::invalid_argument for a degree or
 /// an instruction set that is not there.
-StiffnessKernel stiffness_kernel(int degree, InstructionSet set);
+StiffnessKernel stiffness_kernel(int degree, ElementShape shape, InstructionSet set);
 
 }  // namespace ddem::fem

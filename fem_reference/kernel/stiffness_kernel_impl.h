@@ -63,14 +63,19 @@ inline __attribute__((always_inline)) void scatter(const std::uint32_t* nodes, c
   }
 }
 
-// T = C g at every point: the Piola stress of the reference element from the slopes g along xi and eta.
-template <int n>
-inline __attribute__((always_inline)) void stress(const double* coefficients, Element<n>& e) {
-  Lanes c[coefficients_per_element];
+inline __attribute__((always_inline)) void load(const double* coefficients, Lanes* c) {
   for (std::size_t k = 0; k < coefficients_per_element; ++k) {
     for (std::size_t lane = 0; lane < lanes; ++lane) c[k][lane] = coefficients[k * lanes + lane];
   }
+}
+
+// T = C g at every point: the Piola stress of the reference element from the slopes g along xi and eta.
+template <int n, ElementShape shape>
+inline __attribute__((always_inline)) void stress(const double* coefficients, Element<n>& e) {
+  Lanes c[coefficients_per_element];
+  if constexpr (shape == ElementShape::parallelogram) load(coefficients, c);
   for (int point = 0; point < n * n; ++point) {
+    if constexpr (shape == ElementShape::general) load(coefficients + point * coefficients_per_element * lanes, c);
     const Lanes g0 = e.slope[0][0][point], g1 = e.slope[0][1][point];
     const Lanes g2 = e.slope[1][0][point], g3 = e.slope[1][1][point];
     e.slope[0][0][point] = c[0] * g0 + c[1] * g1 + c[2] * g2 + c[3] * g3;
@@ -81,14 +86,14 @@ inline __attribute__((always_inline)) void stress(const double* coefficients, El
 }
 
 // Sum factorisation: slopes along lines, stress at points, and the transpose back. u is overwritten by f.
-template <int n>
+template <int n, ElementShape shape>
 void apply(const KernelData& data, const double* u, double* f) {
   double dw[n * n];
   for (int q = 0; q < n; ++q) {
     for (int k = 0; k < n; ++k) dw[q * n + k] = data.weights[q] * data.derivative[q * n + k];
   }
   Element<n> e;
-  for (std::size_t batch = 0; batch < data.batches; ++batch) {
+  for (std::size_t batch = data.first_batch; batch < data.last_batch; ++batch) {
     const std::uint32_t* nodes = data.nodes + batch * n * n * lanes;
     gather<n>(nodes, u, e);
     for (int component = 0; component < 2; ++component) {
@@ -97,7 +102,8 @@ void apply(const KernelData& data, const double* u, double* f) {
         differentiate<n, n>(data.derivative, e.u[component] + line, e.slope[component][1] + line);
       }
     }
-    stress<n>(data.coefficients + batch * coefficients_per_element * lanes, e);
+    constexpr std::size_t sets = shape == ElementShape::general ? n * n : 1;
+    stress<n, shape>(data.coefficients + batch * sets * coefficients_per_element * lanes, e);
     for (int component = 0; component < 2; ++component) {
       for (int point = 0; point < n * n; ++point) e.u[component][point] = Lanes{};
       for (int line = 0; line < n; ++line) {
@@ -112,9 +118,13 @@ void apply(const KernelData& data, const double* u, double* f) {
 
 }  // namespace
 
-// Entry p - 1 is degree p.
-extern const StiffnessKernel DDEM_KERNEL_TABLE[8];
-const StiffnessKernel DDEM_KERNEL_TABLE[8] = {apply<2>, apply<3>, apply<4>, apply<5>,
-                                              apply<6>, apply<7>, apply<8>, apply<9>};
+// Row: shape; entry p - 1 is degree p.
+#define DDEM_DEGREES(shape)                                                                        \
+  {apply<2, shape>, apply<3, shape>, apply<4, shape>, apply<5, shape>,                             \
+   apply<6, shape>, apply<7, shape>, apply<8, shape>, apply<9, shape>}
+extern const StiffnessKernel DDEM_KERNEL_TABLE[element_shapes][8];
+const StiffnessKernel DDEM_KERNEL_TABLE[element_shapes][8] = {DDEM_DEGREES(ElementShape::parallelogram),
+                                                              DDEM_DEGREES(ElementShape::general)};
+#undef DDEM_DEGREES
 
 }  // namespace ddem::fem

@@ -28,7 +28,7 @@ struct StripCampaign {
   std::string title = "The strip of the paper";
   std::vector<double> stiffness_ratios = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
   std::vector<Model> models = {Model::dem, Model::lagged_normal, Model::lagged_full, Model::implicit_full};
-  std::vector<std::int64_t> seeds = {1, 2, 3, 4};
+  std::vector<std::int64_t> seeds = {1, 2, 3, 4, 5, 6};
 
   double length = 16.5e-3, width = 2e-3;  ///< m
   std::int64_t discs = 682;               ///< of a random strip

@@ -37,7 +37,7 @@ int run(const Options& o) {
   std::optional<SceneModuli> moduli;
   if (!continuum_stands_alone(scene)) moduli = scene_moduli(scene);
   const FemPlan plan = plan_fem(scene, moduli);
-  const FemResult result = run_fem(std::span(&plan.fem, 1)).front();
+  const FemResult result = run_fem(std::span(&plan.fem, 1), {}, scene.run.threads).front();
   if (result.status != "ok") throw SolverError(o.scene + ": ddem-fem: " + result.status);
 
   const Wave wave = wave_of(scene).value();

@@ -79,8 +79,9 @@ double mean_column_spacing(const std::optional<ddem::Assembly>& a, const Rectang
 
 double choose_end(const Scene& scene, const FemPlan& plan) {
   if (const auto* end = std::get_if<EndTime>(&scene.time.end)) return end->seconds;
-  if (std::holds_alternative<EndSteps>(scene.time.end)) {
-    throw InputError(scene_problem(scene, "time.steps", "the continuum's time step is not that of the discs", "give time.end"));
+  if (const auto* end = std::get_if<EndSteps>(&scene.time.end)) {
+    if (const auto* step = std::get_if<StepSeconds>(&scene.time.step)) return static_cast<double>(end->steps) * step->seconds;
+    throw InputError(scene_problem(scene, "time.steps", "the continuum's time step is not that of the discs", "give time.end, or time.step in seconds"));
   }
   if (plan.layout.pairs.empty()) {
     throw InputError(scene_problem(scene, "time.end", "without pairs of probes there is no last peak to wait for", "give time.end"));
@@ -118,14 +119,19 @@ FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli) {
   fem.width = box.width;
   fem.material = continuum_material(scene, moduli, *wave);
   fem.periodic = scene.assembly.periodic.y;
+  fem.left = scene.boundary.left;
   fem.right = scene.boundary.right;
   fem.load = scene.load;
   fem.column_spacing = mean_column_spacing(assembly, box);
   if (scene.continuum) {
     fem.degree = static_cast<int>(scene.continuum->degree);
+    if (scene.continuum->mesh) fem.mesh = std::filesystem::absolute(*scene.continuum->mesh).string();
     fem.elements = {static_cast<int>(scene.continuum->elements[0]), static_cast<int>(scene.continuum->elements[1])};
   }
-  if (const auto* fraction = std::get_if<StepFraction>(&scene.time.step)) fem.step_fraction = fraction->of_critical;
+  // What the scene does not write is the discs' default; the continuum is exact in time unless it asks for less.
+  const auto written = [&](const char* key) { return scene.places.contains(key); };
+  if (written("time.integrator")) fem.integrator = scene.time.integrator;
+  if (written("time.step") || written("time.step_fraction") || fem.integrator == Integrator::verlet) fem.step = scene.time.step;
   fem.sample_every = static_cast<int>(scene.time.sample_every);
 
   const double speed = fem.material.wave_speed(*wave, fem.periodic);

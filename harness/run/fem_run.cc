@@ -11,6 +11,8 @@
 #include "harness/io/hdf5.h"
 #include "harness/io/json.h"
 #include "harness/io/subprocess.h"
+#include "harness/references/plane_elasticity.h"
+#include "harness/run/fem_reuse.h"
 #include "harness/run/temporary_folder.h"
 
 namespace ddem::harness {
@@ -41,22 +43,35 @@ Json load_json(const FemCase& c) {
   return j;
 }
 
+const char* edge_name(Edge edge) {
+  return edge == Edge::free ? "free" : edge == Edge::fixed_x ? "fixed_x" : "fixed";
+}
+
 Json case_json(const FemCase& c) {
   Json j{{"id", c.id},
          {"length", c.length},
          {"width", c.width},
-         {"elements", c.elements},
          {"degree", c.degree},
          {"young_modulus", c.material.young_modulus},
          {"poisson_ratio", c.material.poisson_ratio},
          {"density", c.material.density},
          {"plane", "stress"},
          {"top_bottom", c.periodic ? "periodic" : "free"},
-         {"right", c.right == Edge::free ? "free" : c.right == Edge::fixed_x ? "fixed_x" : "fixed"},
-         {"left", "free"},
-         {"time", {{"step_fraction", c.step_fraction}, {"end", c.end}}},
+         {"right", edge_name(c.right)},
+         {"left", edge_name(c.left)},
+         {"time", {{"integrator", c.integrator == Integrator::exact ? "exact" : "verlet"}, {"end", c.end}}},
          {"receivers", {{"points", c.points}, {"sections", c.sections}}},
          {"sample_every", c.sample_every}};
+  if (c.mesh.empty()) {
+    j["elements"] = c.elements;
+  } else {
+    j["mesh"] = c.mesh;
+  }
+  if (const auto* seconds = std::get_if<StepSeconds>(&c.step)) {
+    j["time"]["step"] = seconds->seconds;
+  } else {
+    j["time"]["step_fraction"] = std::get<StepFraction>(c.step).of_critical;
+  }
   j[std::holds_alternative<Drive>(c.load) ? "drive" : "initial"] = load_json(c);
   return j;
 }
@@ -90,13 +105,14 @@ FemResult read_result(const Hdf5Group& root, const FemCase& c) {
   r.status = g.string_attribute("status");
   r.degree = c.degree;
   r.elements = c.elements;
+  if (!c.mesh.empty()) r.elements = {static_cast<int>(g.int_attribute("element_count")), 1};
   r.dofs = static_cast<long>(g.int_attribute("dofs"));
   r.steps = static_cast<long>(g.int_attribute("steps"));
   r.critical_time_step = g.double_attribute("critical_time_step");
   r.time_step = g.double_attribute("time_step");
   r.solve_seconds = g.double_attribute("solve_seconds");
-  r.energy_drift = g.double_attribute("energy_drift");
-  r.sample_interval = r.time_step * c.sample_every;
+  r.energy_drift = g.has_attribute("energy_drift") ? g.double_attribute("energy_drift") : std::nan("");
+  r.sample_interval = g.double_attribute("sample_interval");
   r.time = g.read_doubles("time").values;
   if (!c.points.empty()) split(g.read_doubles("points"), r.point_ux, r.point_uy);
   if (!c.sections.empty()) split(g.read_doubles("sections"), r.section_ux, r.section_uy);
@@ -111,25 +127,39 @@ double ContinuumMaterial::wave_speed(Wave wave, bool periodic) const {
   return std::sqrt(periodic ? e / (1.0 - nu * nu) : e);
 }
 
-std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case) {
+std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case, std::int64_t threads) {
   if (cases.empty()) return {};
+  const FemReuse reuse = share_runs(cases);
+  // Runs are named by their number; a caller's names need not be those of groups, nor differ.
+  std::vector<FemCase> runs = reuse.runs;
+  for (std::size_t k = 0; k < runs.size(); ++k) runs[k].id = std::to_string(k);
+  const auto finished = [&](std::size_t run) {
+    for (const FemShare& share : reuse.shares) {
+      if (share.run == run) on_case();
+    }
+  };
   const std::string program = fem_program();
   const TemporaryFolder folder("ddem-fem");
   Json document{{"schema", 1}, {"cases", Json::array()}};
-  for (const FemCase& c : cases) document["cases"].push_back(case_json(c));
+  for (const FemCase& c : runs) document["cases"].push_back(case_json(c));
   const auto input = folder.path() / "cases.json", output = folder.path() / "signals.h5";
   write_json(input, document);
+  std::size_t done = 0;
   const SubprocessResult run =
-      run_program(program, {input.string(), "-o", output.string(), "--progress"}, [&](std::string_view line) {
-        if (on_case && line.starts_with("done ")) on_case();
+      run_program(program, {input.string(), "-o", output.string(), "--progress", "--threads", std::to_string(threads)}, [&](std::string_view line) {
+        if (on_case && line.starts_with("done ")) finished(done++);
       });
+  if (run.exit_code == 2) throw InputError(run.standard_error);
   // 3: a case was unstable; the others are in the file, and it says so itself.
   if (!run.succeeded() && run.exit_code != 3) {
     throw MachineError("ddem-fem failed (" + run.status() + "): " + run.standard_error);
   }
   const Hdf5File file = Hdf5File::open(output);
-  std::vector<FemResult> results;
-  for (const FemCase& c : cases) results.push_back(read_result(file.root(), c));
+  std::vector<FemResult> solved, results;
+  for (const FemCase& c : runs) solved.push_back(read_result(file.root(), c));
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    results.push_back(rescaled(solved[reuse.shares[k].run], reuse.shares[k], cases[k]));
+  }
   return results;
 }
 
@@ -153,6 +183,11 @@ ContinuumMaterial continuum_material(const Scene& scene, const std::optional<Sce
     m.young_modulus = scene.continuum->young_modulus.value_or(m.young_modulus);
     m.poisson_ratio = scene.continuum->poisson_ratio.value_or(m.poisson_ratio);
     m.density = scene.continuum->density.value_or(m.density);
+    if (scene.continuum->plane == Plane::strain) {
+      const auto plane = references::plane_strain_constants(m.young_modulus, m.poisson_ratio);
+      m.young_modulus = plane.young_modulus;
+      m.poisson_ratio = plane.poisson_ratio;
+    }
   }
   return m;
 }

@@ -27,14 +27,17 @@ struct FemCase {
   std::string id;
   double length = 0.0, width = 0.0;
   std::array<int, 2> elements{66, 8};
+  std::string mesh;  ///< file of a mesh instead of elements
   int degree = 4;
   ContinuumMaterial material;
   bool periodic = false;  ///< top and bottom
-  Edge right = Edge::fixed_x;
+  Edge left = Edge::free, right = Edge::fixed_x;
   Load load;               ///< InitialPulse or Drive
   double column_spacing = 0.0;  ///< of the discs' columns, for the shape "column"
-  double step_fraction = 0.2;
-  double end = 0.0;        ///< s
+  /// exact: signals without error of time, whatever the step, which sets the samples alone.
+  Integrator integrator = Integrator::exact;
+  std::variant<StepFraction, StepSeconds> step = StepFraction{1.0};
+  double end = 0.0;            ///< s
   int sample_every = 1;
   std::vector<std::array<double, 2>> points;  ///< m, from the lower left corner
   std::vector<double> sections;               ///< m, from the left end
@@ -46,17 +49,18 @@ struct FemResult {
   int degree = 0;
   long dofs = 0, steps = 0;
   std::array<int, 2> elements{};
-  double critical_time_step = 0.0, time_step = 0.0, sample_interval = 0.0, solve_seconds = 0.0, energy_drift = 0.0;
+  double critical_time_step = 0.0, time_step = 0.0, sample_interval = 0.0, solve_seconds = 0.0;
+  double energy_drift = 0.0;  ///< NaN where it was not measured
   std::vector<double> time;
   /// [receiver][sample]
   std::vector<std::vector<double>> point_ux, point_uy, section_ux, section_uy;
 };
 
-/// Runs all cases in one process of ddem-fem, which stands beside the running program. `on_case` hears of each case
-/// that is finished. Throws MachineError if the program is missing or dies, SolverError if its output cannot be used.
-std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case = {});
+/// Runs all cases in one process of ddem-fem, which stands beside the running program; cases that are one problem in
+/// other units are solved once (fem_reuse.h). `on_case` hears of each case that is finished. Throws MachineError if the program is missing or dies, SolverError if its output cannot be used.
+std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::function<void()>& on_case = {}, std::int64_t threads = 1);
 
-/// The material of a scene's continuum: [continuum] where given, else the static moduli of the assembly; for a bar the
+/// The plane moduli of a scene's continuum: [continuum] where given, else the static moduli of the assembly; for a bar the
 /// Young's modulus and contraction of the very strip, for shear and P the directional stiffness.
 ContinuumMaterial continuum_material(const Scene& scene, const std::optional<SceneModuli>& moduli, Wave wave);
 

@@ -119,6 +119,8 @@ Continuum build_continuum(const Values& values) {
   continuum.degree = values.integer("continuum.degree");
   const std::vector<std::int64_t>& elements = values.integers("continuum.elements");
   continuum.elements = {elements[0], elements[1]};
+  continuum.plane = values.choice<Plane>("continuum.plane");
+  if (values.given("continuum.mesh")) continuum.mesh = values.file("continuum.mesh");
   return continuum;
 }
 

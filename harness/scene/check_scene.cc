@@ -20,6 +20,7 @@ struct OnlyWith {
 
 constexpr Contradiction contradictions[] = {
     {"assembly.bonds", "assembly.bond_gap | assembly.coordination"},
+    {"continuum.mesh", "continuum.elements"},
     {"assembly.bond_gap", "assembly.coordination"},
     {"contact.normal_stiffness", "contact.contact_modulus"},
     {"initial.displacement | initial.velocity",
@@ -232,6 +233,19 @@ void check_probes(Values& values) {
   }
 }
 
+void check_continuum(Values& values) {
+  if (values.given("continuum.mesh") && !continuum_is_complete(values)) {
+    values.reject("continuum.mesh", "a mesh has its own ends, not those of the discs",
+                  "give young_modulus, poisson_ratio and density, too");
+  }
+  if (!values.is("continuum.plane", "strain")) return;
+  require(values, "continuum.young_modulus");
+  require(values, "continuum.poisson_ratio");
+  if (values.has("continuum.poisson_ratio") && values.number("continuum.poisson_ratio") >= 0.5) {
+    values.reject("continuum.poisson_ratio", "impossible in plane strain", "must be less than 0.5");
+  }
+}
+
 }  // namespace
 
 bool continuum_is_complete(const Values& values) {
@@ -249,6 +263,7 @@ void check_scene(Values& values, Purpose purpose) {
   check_left_edge(values, purpose);
   check_time(values);
   check_probes(values);
+  check_continuum(values);
 }
 
 }  // namespace ddem::harness

@@ -162,6 +162,11 @@ constexpr KeySpec keys[] = {
              "without it: the assembly's bulk density"),
     integer("continuum", "degree", from(1, 8), "4", "of the elements"),
     {"continuum", "elements", ValueType::counts, none, from(1, 1e5), "", "[66, 8]", "along x and along y"},
+    choice("continuum", "plane", "stress | strain", "\"stress\"",
+           "stress: E and nu are those of the plane; strain: those of a solid between rigid walls"),
+    file("continuum", "mesh",
+         "instead of elements: a gmsh file (.msh, metres) of quadrilaterals in the rectangle of assembly.length and width, "
+         "with physical curves left, right, bottom and top"),
 
     choice("time", "integrator", "verlet | exact", "\"verlet\"",
            "velocity Verlet; exact: exact in time at the probes, linear scenes"),

@@ -35,8 +35,9 @@ bool asks_for(const Values& values, const NotBuilt& setting) {
 
 }  // namespace
 
-void reject_not_built(Values& values) {
+void reject_not_built(Values& values, Purpose purpose) {
   for (const NotBuilt& setting : not_built) {
+    if (purpose == Purpose::continuum && setting.key == "time.integrator") continue;
     if (asks_for(values, setting)) values.reject(setting.key, "not built yet", std::string(setting.remedy));
   }
 }

@@ -26,7 +26,7 @@ SceneResult parse_scene(std::string_view text, const std::string& name,
   Values values(*document, name, base_folder);
   if (!values.too_many_violations()) {
     check_scene(values, options.purpose);
-    reject_not_built(values);
+    reject_not_built(values, options.purpose);
   }
   if (!values.violations().empty()) {
     Violations violations = by_line(values.violations());

@@ -156,6 +156,8 @@ struct Continuum {
   std::optional<double> density;  ///< bulk, kg/m3
   std::int64_t degree = 4;
   std::array<std::int64_t, 2> elements{66, 8};  ///< along x, along y
+  Plane plane = Plane::stress;                  ///< strain: E and nu are given, and those of a solid
+  std::optional<std::filesystem::path> mesh;    ///< instead of elements
 };
 
 enum class Integrator { verlet, exact };

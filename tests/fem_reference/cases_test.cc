@@ -43,7 +43,7 @@ TEST(CaseFile, ReadsWhatItSays) {
   EXPECT_EQ(cases[0].sample_every, 4u);
   EXPECT_FALSE(cases[1].initial);
   EXPECT_EQ(cases[1].drive->amplitude, -2e-6);
-  EXPECT_EQ(cases[1].right, RightEdge::fixed);
+  EXPECT_EQ(cases[1].right, End::fixed);
   EXPECT_EQ(cases[1].plane, Plane::strain);
   EXPECT_EQ(cases[1].time.steps, 100u);
 }
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/poisson_ratio", "1.0", "poisson_ratio"}, Bad{"/poisson_ratio", "", "poisson_ratio"},
         Bad{"/density", "null", "density"}, Bad{"/plane", "\"flat\"", "plane"},
         Bad{"/top_bottom", "3", "top_bottom"}, Bad{"/right", "\"left\"", "right"},
-        Bad{"/left", "\"fixed\"", "left"}, Bad{"/colour", "1", "colour"}, Bad{"/initial", "null", "initial"},
+        Bad{"/left", "\"right\"", "left"}, Bad{"/colour", "1", "colour"}, Bad{"/initial", "null", "initial"},
         Bad{"/initial", "[]", "initial"}, Bad{"/initial/wave", "\"love\"", "wave"},
         Bad{"/initial/width", "", "width"}, Bad{"/initial/shape", "\"column\"", "spacing"},
         Bad{"/initial/amplitude", "0", "amplitude"}, Bad{"/initial/colour", "1", "colour"},

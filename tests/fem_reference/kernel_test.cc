@@ -82,6 +82,54 @@ TEST_P(Kernel, RigidMotionHasNoForce) {
   EXPECT_LT(largest(times(stiffness, rigid)), 1e-12 * largest(times(stiffness, uniform)));
 }
 
+TEST_P(Kernel, GeneralQuadrilateralsPassThePatchTest) {
+  Rectangle distorted = rectangle;
+  distorted.slant = 0.0;
+  distorted.distortion = 0.4;
+  const auto mesh = make_rectangle(distorted);
+  ASSERT_FALSE(mesh.mesh.affine());
+  const ElasticOperator stiffness(mesh.mesh, material);
+  const double exx = 1e-3, eyy = -4e-4, exy = 7e-4;
+  const auto u = interpolate(
+      mesh, [&](double x, double y) { return exx * x + (exy - 0.3) * y; },
+      [&](double x, double y) { return eyy * y + (exy + 0.3) * x; });
+  const double trace = exx + eyy, squares = exx * exx + eyy * eyy + 2.0 * exy * exy;
+  const double area = distorted.length * distorted.height;
+  const double energy = area * (0.5 * material.lame_lambda * trace * trace + material.shear_modulus * squares);
+  const auto force = times(stiffness, u);
+  // The rotation of 0.3 is 400 times the strain: its forces cancel to 400 times the round-off.
+  EXPECT_NEAR(0.5 * dot(u, force), energy, 1e-9 * energy);
+  for (std::size_t node = 0; node < mesh.mesh.node_count; ++node) {
+    const double x = mesh.x[node], y = mesh.y[node];
+    if (std::min({x, y, distorted.length - x, distorted.height - y}) < 1e-9) continue;
+    EXPECT_LT(std::hypot(force[2 * node], force[2 * node + 1]), 1e-9 * largest(force));
+  }
+  const double total = std::accumulate(stiffness.mass().begin(), stiffness.mass().end(), 0.0);
+  EXPECT_NEAR(total, material.density * area, 1e-13 * material.density * area);
+  const auto random = random_vector(stiffness.vector_size());
+  auto other = random;
+  std::reverse(other.begin(), other.end() - 2);
+  EXPECT_NEAR(dot(random, times(stiffness, other)), dot(other, times(stiffness, random)),
+              1e-13 * dot(random, times(stiffness, random)));
+  for (const auto set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (!is_available(set)) continue;
+    EXPECT_EQ(times(ElasticOperator(mesh.mesh, material, set), u), force);
+  }
+}
+
+TEST_P(Kernel, ParallelogramsMayBeGivenPointByPoint) {
+  const auto mesh = make_rectangle(rectangle);
+  auto by_point = mesh.mesh;
+  by_point.jacobians.clear();
+  for (const auto& jacobian : mesh.mesh.jacobians) {
+    by_point.jacobians.insert(by_point.jacobians.end(), by_point.points_per_element(), jacobian);
+  }
+  const ElasticOperator stiffness(mesh.mesh, material), general(by_point, material);
+  const auto u = random_vector(stiffness.vector_size());
+  EXPECT_EQ(times(general, u), times(stiffness, u));
+  EXPECT_EQ(general.mass(), stiffness.mass());
+}
+
 TEST_P(Kernel, StiffnessIsSymmetric) {
   const auto mesh = make_rectangle(rectangle);
   const ElasticOperator stiffness(mesh.mesh, material);
@@ -129,6 +177,20 @@ TEST_P(Kernel, EveryInstructionSetGivesTheSameBits) {
   for (const auto set : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (!is_available(set)) continue;
     EXPECT_EQ(times(ElasticOperator(mesh.mesh, material, set), u), expected);
+  }
+}
+
+TEST_P(Kernel, AnyNumberOfThreadsGivesTheSameBits) {
+  Rectangle larger = rectangle;
+  larger.nx = 40;
+  const auto mesh = make_rectangle(larger);
+  ElasticOperator stiffness(mesh.mesh, material);
+  const auto u = random_vector(stiffness.vector_size());
+  const auto expected = times(stiffness, u);
+  for (const int threads : {2, 3, 7}) {
+    Team team(threads);
+    stiffness.use(team);
+    for (int repeat = 0; repeat < 3; ++repeat) ASSERT_EQ(times(stiffness, u), expected) << threads;
   }
 }
 

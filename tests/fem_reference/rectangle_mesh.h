@@ -2,6 +2,7 @@
 // A structured mesh of a rectangle (or of the parallelogram that a shear makes of it), with its coordinates,
 // for tests of the kernel without deal.II or gmsh.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -18,12 +19,51 @@ struct Rectangle {
   int nx = 1, ny = 1, degree = 1;
   bool periodic_x = false, periodic_y = false;
   double slant = 0.0;  ///< x is moved by slant * y
+  /// Vertices are moved by a wave along either direction whose slope is up to this: general quadrilaterals. For meshes
+  /// without periodic edges and slant.
+  double distortion = 0.0;
 };
 
 struct RectangleMesh {
   ElementMesh mesh;
   std::vector<double> x, y;  ///< of each node
 };
+
+/// The mesh of `r` without distortion, moved: positions and Jacobians of bilinear elements at their points.
+inline void distort(const Rectangle& r, RectangleMesh& result) {
+  const GaussLobatto rule = gauss_lobatto(r.degree);
+  const double hx = r.length / r.nx, hy = r.height / r.ny;
+  using Point = std::array<double, 2>;
+  const auto vertex = [&](int i, int j) -> Point {
+    const double edge = (i % r.nx == 0 || j % r.ny == 0) ? 0.0 : r.distortion / M_PI;
+    const double wave = edge * std::sin(M_PI * i / r.nx) * std::sin(M_PI * j / r.ny);
+    return {i * hx + wave * r.length, j * hy - 0.6 * wave * r.height};
+  };
+  std::size_t place = 0;
+  result.mesh.jacobians.clear();
+  for (int ex = 0; ex < r.nx; ++ex) {
+    for (int ey = 0; ey < r.ny; ++ey) {
+      const Point v[4] = {vertex(ex, ey), vertex(ex + 1, ey), vertex(ex, ey + 1), vertex(ex + 1, ey + 1)};
+      for (int b = 0; b <= r.degree; ++b) {
+        for (int a = 0; a <= r.degree; ++a, ++place) {
+          const double xi = rule.points[a], eta = rule.points[b];
+          std::array<double, 4> jacobian{};
+          Point position{};
+          for (int c = 0; c < 2; ++c) {
+            const double along = (v[1][c] - v[0][c]) * (1.0 - eta) + (v[3][c] - v[2][c]) * eta;
+            const double across = (v[2][c] - v[0][c]) * (1.0 - xi) + (v[3][c] - v[1][c]) * xi;
+            jacobian[2 * c] = along;
+            jacobian[2 * c + 1] = across;
+            position[c] = v[0][c] + xi * (v[1][c] - v[0][c]) + eta * across;
+          }
+          result.mesh.jacobians.push_back(jacobian);
+          result.x[result.mesh.nodes[place]] = position[0];
+          result.y[result.mesh.nodes[place]] = position[1];
+        }
+      }
+    }
+  }
+}
 
 inline RectangleMesh make_rectangle(const Rectangle& r) {
   const GaussLobatto rule = gauss_lobatto(r.degree);
@@ -50,6 +90,7 @@ inline RectangleMesh make_rectangle(const Rectangle& r) {
       }
     }
   }
+  if (r.distortion > 0.0) distort(r, result);
   return result;
 }
 

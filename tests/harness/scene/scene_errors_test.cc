@@ -168,6 +168,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"682", "682\nperiodic = \"xy\"", "no left edge to displace"},
         Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.5\nplane = \"strain\"\n",
                 "scene.toml:16: deformation.poisson_ratio = 0.5: impossible in plane strain"},
+        Mistake{"", "[continuum]\nyoung_modulus = 1\npoisson_ratio = 0.5\nplane = \"strain\"\n",
+                "scene.toml:16: continuum.poisson_ratio = 0.5: impossible in plane strain"},
+        Mistake{"", "[continuum]\nyoung_modulus = 1\nplane = \"strain\"\n", "continuum.poisson_ratio: missing"},
         Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 1\n",
                 "must be greater than -1 and less than 1"}));
 

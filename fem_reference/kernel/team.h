@@ -1,0 +1,44 @@
+#pragma once
+// A few threads that take every step together: started once, met several times a step.
+
+#include <atomic>
+#include <functional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace ddem::fem {
+
+class Team {
+ public:
+  /// The calling thread is one of them. Throws std::invalid_argument for less than one.
+  explicit Team(int threads = 1);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  int size() const { return size_; }
+
+  /// job(0) .. job(size - 1), one a thread; returns when all are done. The job must not throw.
+  void run(const std::function<void(int)>& job);
+
+  /// Inside a job: goes on when all threads have come here.
+  void meet();
+
+  /// The part of `count` things that a thread takes.
+  std::pair<std::size_t, std::size_t> part(std::size_t count, int thread) const {
+    const auto n = static_cast<std::size_t>(size_), k = static_cast<std::size_t>(thread);
+    return {count * k / n, count * (k + 1) / n};
+  }
+
+ private:
+  void work(int thread);
+
+  int size_;
+  const std::function<void(int)>* job_ = nullptr;
+  std::atomic<unsigned> epoch_{0}, arrived_{0}, round_{0};
+  bool over_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace ddem::fem

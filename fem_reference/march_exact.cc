@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "fem_reference/excitation.h"
+#include "fem_reference/kernel/time_filter.h"
+#include "fem_reference/march.h"
+#include "fem_reference/receivers.h"
+#include "fem_reference/sampling.h"
+
+namespace ddem::fem {
+namespace {
+
+// The states of a march at the very critical step would grow linearly in its fastest mode.
+constexpr double march_fraction = 0.99;
+// Multiplications of coefficients and states: minutes.
+constexpr double most_filter_work = 1e12;
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The displacement is factor sum_k a_k(t) T_k start + motion(t) edge.
+struct Response {
+  std::vector<double> start;
+  std::function<void(double time, double time_step, std::span<double> a)> coefficients;
+  double factor = 1.0;
+  std::vector<double> edge;                ///< receivers' values of a unit motion of the driven edge
+  std::function<double(double)> motion;
+  double largest_step = HUGE_VAL;
+};
+
+// At rest, the prescribed edge e g(t) accelerates the free degrees of freedom by -M^-1 K e g(t).
+Response driven(const StripProblem& problem) {
+  Response r;
+  const EdgeDrive& drive = *problem.strip.drive;
+  const Sin2 pulse = motion(drive);
+  const std::vector<double> edge = driven_edge(problem.strip, problem.model, problem.stiffness);
+  r.start.resize(edge.size());
+  problem.stiffness.apply(edge, r.start);
+  for (std::size_t k = 0; k < r.start.size(); ++k) r.start[k] *= -problem.inverse_mass[k];
+  r.coefficients = [pulse](double t, double dt, std::span<double> a) { drive_coefficients(pulse, t, dt, a); };
+  r.factor = drive.amplitude;
+  evaluate_receivers(problem.model, edge, r.edge);
+  r.motion = [pulse, amplitude = drive.amplitude](double t) { return amplitude * pulse(t); };
+  r.largest_step = largest_step_for(pulse);
+  return r;
+}
+
+Response released(const StripProblem& problem) {
+  Response r;
+  const InitialPulse& pulse = *problem.strip.initial;
+  r.start = initial_field(problem.strip, problem.model, pulse);
+  r.coefficients = pulse.field == Field::velocity ? impulse_coefficients : release_coefficients;
+  return r;
+}
+
+// Receivers' values of T_0 start .. T_(count-1) start, one row a state.
+Matrix march(const StripProblem& problem, const Response& response, std::size_t count, CaseResult& result) {
+  std::vector<double> rows;
+  rows.reserve(count * receiver_values(problem.model));
+  Leapfrog leapfrog(problem.stiffness, problem.inverse_mass, {response.start, {}}, result.time_step);
+  evaluate_receivers(problem.model, leapfrog.displacement(), rows);
+  EnergyAudit audit(1, count - 1);
+  for (std::size_t k = 1; k < count; ++k) {
+    leapfrog.step();
+    evaluate_receivers(problem.model, leapfrog.displacement(), rows);
+    audit.watch(leapfrog);
+  }
+  result.steps = leapfrog.steps_done();
+  result.energy_drift = audit.drift();
+  return Eigen::Map<const Matrix>(rows.data(), static_cast<Eigen::Index>(count),
+                                  static_cast<Eigen::Index>(receiver_values(problem.model)));
+}
+
+void filter(const Response& response, const Matrix& states, CaseResult& result) {
+  constexpr Eigen::Index block = 64;
+  const auto samples = static_cast<Eigen::Index>(result.time.size());
+  result.signals.resize(result.time.size() * static_cast<std::size_t>(states.cols()));
+  Eigen::Map<Matrix> signals(result.signals.data(), samples, states.cols());
+  Matrix coefficients(block, states.rows());
+  for (Eigen::Index first = 0; first < samples; first += block) {
+    const Eigen::Index count = std::min(block, samples - first);
+    // Later states do not reach back to these samples.
+    const Eigen::Index reach = std::min<Eigen::Index>(
+        states.rows(), static_cast<Eigen::Index>(states_for(result.time[first + count - 1], result.time_step)));
+    for (Eigen::Index row = 0; row < count; ++row) {
+      response.coefficients(result.time[first + row], result.time_step,
+                            {&coefficients(row, 0), static_cast<std::size_t>(reach)});
+    }
+    auto out = signals.middleRows(first, count);
+    out.noalias() = response.factor * (coefficients.topLeftCorner(count, reach) * states.topRows(reach));
+    if (!response.motion) continue;
+    const Eigen::Map<const Eigen::RowVectorXd> edge(response.edge.data(), states.cols());
+    for (Eigen::Index row = 0; row < count; ++row) out.row(row) += response.motion(result.time[first + row]) * edge;
+  }
+}
+
+}  // namespace
+
+void march_exact(const StripProblem& problem, CaseResult& result) {
+  const StripCase& strip = problem.strip;
+  const Response response = strip.drive ? driven(problem) : released(problem);
+  result.time_step = std::min(march_fraction * result.critical_time_step, response.largest_step);
+  const double unit = strip.time.step.value_or(strip.time.step_fraction * result.critical_time_step);
+  result.sample_interval = unit * static_cast<double>(strip.sample_every);
+  const std::size_t values = receiver_values(problem.model);
+  const std::uint64_t samples = count_steps(strip, unit, values) / strip.sample_every + 1;
+  const double end = static_cast<double>(samples - 1) * result.sample_interval;
+  const double work = end / result.time_step * static_cast<double>(samples) * static_cast<double>(values);
+  if (!(work <= most_filter_work)) {
+    throw CaseError(fmt::format("case \"{}\", time: {:.3g} multiplications for {} exact samples; sample less often, or "
+                                "use the integrator verlet",
+                                strip.id, work, samples));
+  }
+  for (std::uint64_t sample = 0; sample < samples; ++sample) {
+    result.time.push_back(static_cast<double>(sample) * result.sample_interval);
+  }
+  const Matrix states = march(problem, response, std::max<std::size_t>(2, states_for(end, result.time_step)), result);
+  filter(response, states, result);
+  if (!std::all_of(result.signals.begin(), result.signals.end(), [](double v) { return std::isfinite(v); })) {
+    result.status = fmt::format("unstable: step {}", result.steps);
+    result.time.clear();
+    result.signals.clear();
+  }
+}
+
+}  // namespace ddem::fem

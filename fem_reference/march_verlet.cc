@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "fem_reference/excitation.h"
+#include "fem_reference/march.h"
+#include "fem_reference/receivers.h"
+#include "fem_reference/sampling.h"
+
+namespace ddem::fem {
+namespace {
+
+constexpr std::uint64_t steps_between_checks = 64;
+// Waves that meet at an edge or a corner double a few times; a thousand times the excitation is no wave.
+constexpr double largest_amplification = 1e3;
+
+bool within(std::span<const double> u, double limit) {
+  return std::all_of(u.begin(), u.end(),
+                     [&](double value) { return std::abs(value) <= limit; });  // false for NaN
+}
+
+// Displacement that the excitation is worth, to tell a wave from an instability.
+double excitation(const StripCase& strip, double end) {
+  if (strip.drive) return std::abs(strip.drive->amplitude);
+  const bool velocity = strip.initial->field == Field::velocity;
+  return std::abs(strip.initial->amplitude) * (velocity ? end : 1.0);
+}
+
+Leapfrog start(const StripProblem& problem, double time_step) {
+  const std::vector<double> nothing(problem.stiffness.vector_size(), 0.0);
+  std::vector<double> displacement = nothing, velocity = nothing;
+  if (const auto& pulse = problem.strip.initial) {
+    (pulse->field == Field::velocity ? velocity : displacement) = initial_field(problem.strip, problem.model, *pulse);
+  }
+  return Leapfrog(problem.stiffness, problem.inverse_mass, {displacement, velocity}, time_step);
+}
+
+}  // namespace
+
+void march_verlet(const StripProblem& problem, CaseResult& result) {
+  const StripCase& strip = problem.strip;
+  const StripModel& model = problem.model;
+  const double dt = strip.time.step.value_or(strip.time.step_fraction * result.critical_time_step);
+  result.time_step = dt;
+  result.sample_interval = dt * static_cast<double>(strip.sample_every);
+  const std::size_t values = receiver_values(model);
+  const std::uint64_t steps = count_steps(strip, dt, values), samples = steps / strip.sample_every + 1;
+  const double limit = largest_amplification * excitation(strip, static_cast<double>(steps) * dt);
+  Leapfrog leapfrog = start(problem, dt);
+  // The invariant joins two states: both must lie behind the end of the drive.
+  const double still = strip.drive ? std::ceil(strip.drive->duration / dt) + 1.0 : 1.0;
+  EnergyAudit audit(still <= static_cast<double>(steps) ? static_cast<std::uint64_t>(still) : steps + 1, steps);
+  result.time.reserve(samples);
+  result.signals.reserve(samples * values);
+  const auto record = [&] {
+    result.time.push_back(leapfrog.time());
+    evaluate_receivers(model, leapfrog.displacement(), result.signals);
+  };
+  record();
+  std::size_t good_samples = 1;
+  for (std::uint64_t step = 1; step <= steps; ++step) {
+    leapfrog.step();
+    if (strip.drive) {
+      const double value = strip.drive->amplitude * motion(*strip.drive)(leapfrog.time());
+      for (const std::uint32_t node : model.left_nodes) {
+        leapfrog.prescribe(2 * node + component(strip.drive->wave), value);
+      }
+    }
+    if (step % strip.sample_every == 0) record();
+    audit.watch(leapfrog);
+    if (step % steps_between_checks != 0 && step != steps) continue;
+    result.steps = step;
+    if (!within(leapfrog.displacement(), limit)) {
+      result.status = fmt::format("unstable: step {}", step);
+      result.time.resize(good_samples);
+      result.signals.resize(good_samples * values);
+      return;
+    }
+    good_samples = result.time.size();
+  }
+  result.energy_drift = audit.drift();
+}
+
+}  // namespace ddem::fem
