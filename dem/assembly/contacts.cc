@@ -70,15 +70,45 @@ double gap_rounding(const Packing& packing) {
   return 64.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Gaps of all pairs, ascending: at least `wanted` and one more, or else all up to `limit`.
-std::vector<double> smallest_gaps(const Packing& packing, std::size_t wanted, double limit, double step) {
-  std::vector<double> gaps;
+/// Discs that a coordination is the mean of; all of them without marks.
+class Counted {
+ public:
+  Counted(std::size_t discs, std::span<const char> marks) : marks_(marks), discs_(discs) {
+    if (marks.empty()) return;
+    if (marks.size() != discs)
+      throw std::invalid_argument(fmt::format("{} marks for {} discs", marks.size(), discs));
+    discs_ = static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](char mark) { return mark != 0; }));
+  }
+
+  std::size_t discs() const { return discs_; }
+  std::size_t ends(int i, int j) const {
+    return marks_.empty() ? 2 : (marks_[i] != 0 ? 1u : 0u) + (marks_[j] != 0 ? 1u : 0u);
+  }
+
+ private:
+  std::span<const char> marks_;
+  std::size_t discs_;
+};
+
+/// A pair that is bonded from this gap on, and how many of its ends count.
+struct Candidate {
+  double gap;
+  std::size_t ends;
+};
+
+/// Pairs with counted ends, by ascending gap: at least enough for the ends wanted and one more, or else all up to `limit`.
+std::vector<Candidate> closest(const Packing& packing, const Counted& counted, std::size_t wanted, double limit, double step) {
   for (double reach = std::min(step, limit);; reach = std::min(reach + step, limit)) {
-    const std::vector<ClosePair> pairs = close_pairs(packing, reach);
-    if (pairs.size() > wanted || reach >= limit) {
-      for (const ClosePair& pair : pairs) gaps.push_back(pair.gap);
-      std::sort(gaps.begin(), gaps.end());
-      return gaps;
+    std::vector<Candidate> pairs;
+    std::size_t ends = 0;
+    for (const ClosePair& pair : close_pairs(packing, reach)) {
+      const std::size_t own = counted.ends(pair.i, pair.j);
+      if (own > 0) pairs.push_back({pair.gap, own});
+      ends += own;
+    }
+    if (ends > wanted + 1 || reach >= limit) {
+      std::stable_sort(pairs.begin(), pairs.end(), [](const Candidate& a, const Candidate& b) { return a.gap < b.gap; });
+      return pairs;
     }
   }
 }
@@ -136,10 +166,11 @@ Bonds bonds_within_gap(const Packing& packing, double bond_gap) {
   return bonds_of(packing, close_pairs(packing, bond_gap));
 }
 
-double gap_for_coordination(const Packing& packing, double coordination) {
+double gap_for_coordination(const Packing& packing, double coordination, std::span<const char> marks) {
   check_packing_for_search(packing);
   if (packing.size() < 2) throw std::invalid_argument("a coordination needs at least two discs");
-  const auto discs = static_cast<double>(packing.size());
+  const Counted counted(packing.size(), marks);
+  const auto discs = static_cast<double>(counted.discs());
   if (!(coordination > 0.0 && coordination < discs))
     throw std::invalid_argument(
         fmt::format("the coordination must be positive and below the number of discs, {}, but is {}", discs,
@@ -149,28 +180,36 @@ double gap_for_coordination(const Packing& packing, double coordination) {
   double limit = 2.0 * mean;
   for (const double period : {packing.period.x, packing.period.y})
     if (period > 0.0) limit = std::min(limit, 0.5 * period * (1.0 - 1e-12) - 2.0 * largest_radius(packing));
-  const auto wanted = static_cast<std::size_t>(std::max(1.0, std::round(0.5 * coordination * discs)));
+  const double wanted = coordination * discs;
   // Where even touching discs do not fit the period, `limit` is negative: the search for touching ones
   // throws.
-  const std::vector<double> gaps = smallest_gaps(packing, wanted, std::max(0.0, limit), 0.4 * mean);
+  const std::vector<Candidate> pairs =
+      closest(packing, counted, static_cast<std::size_t>(wanted), std::max(0.0, limit), 0.4 * mean);
 
-  // The cut lies between gaps[below - 1] and gaps[below], where they differ by more than rounding.
+  // The cut lies between two pairs whose gaps differ by more than rounding: the last cut at or below the number of ends
+  // wanted, or the first above it.
   const double rounding = gap_rounding(packing);
-  const auto is_cut = [&](std::size_t k) {
-    return k == 0 || k == gaps.size() || gaps[k] - gaps[k - 1] > rounding;
-  };
-  std::size_t below = std::min(wanted, gaps.size()), above = below;
-  while (!is_cut(below)) --below;
-  while (!is_cut(above)) ++above;
-  const std::size_t bonds = wanted - below <= (above < wanted ? wanted : above - wanted) ? below : above;
-  const auto reached = [&](std::size_t k) { return 2.0 * static_cast<double>(k) / discs; };
-  if (bonds == 0 || std::abs(reached(bonds) - coordination) > (1.0 + 1e-9) / discs)
+  std::size_t below = 0, ends_below = 0, above = 0, ends_above = 0, ends = 0;
+  for (std::size_t k = 0; k < pairs.size() && static_cast<double>(ends_above) < wanted; ++k) {
+    ends += pairs[k].ends;
+    if (k + 1 < pairs.size() && pairs[k + 1].gap - pairs[k].gap <= rounding) continue;
+    if (static_cast<double>(ends) <= wanted) {
+      below = k + 1;
+      ends_below = ends;
+    }
+    above = k + 1;
+    ends_above = ends;
+  }
+  const auto miss = [&](std::size_t n) { return std::abs(static_cast<double>(n) - wanted); };
+  const bool take_below = miss(ends_below) <= miss(ends_above);
+  const std::size_t bonds = take_below ? below : above;
+  if (bonds == 0 || miss(take_below ? ends_below : ends_above) > 1.0 + 1e-9 * discs)
     throw std::invalid_argument(fmt::format(
         "no gap up to {:.4g} m (at most two mean radii, and half a period) gives a coordination of "
         "{:.6g}: the nearest are {:.6g} and {:.6g}",
-        limit, coordination, reached(below), reached(above)));
-  const double next = bonds < gaps.size() ? gaps[bonds] : std::max(gaps[bonds - 1], limit);
-  return 0.5 * (gaps[bonds - 1] + next);
+        limit, coordination, static_cast<double>(ends_below) / discs, static_cast<double>(ends_above) / discs));
+  const double next = bonds < pairs.size() ? pairs[bonds].gap : std::max(pairs[bonds - 1].gap, limit);
+  return 0.5 * (pairs[bonds - 1].gap + next);
 }
 
 Bonds bonds_between(const Packing& packing, std::span<const std::pair<int, int>> pairs) {
@@ -208,6 +247,14 @@ Bonds bonds_between(const Packing& packing, std::span<const std::pair<int, int>>
 double coordination(const Bonds& bonds, std::size_t discs) {
   if (discs == 0) throw std::invalid_argument("the coordination of no discs is not defined");
   return 2.0 * static_cast<double>(bonds.size()) / static_cast<double>(discs);
+}
+
+double coordination(const Bonds& bonds, std::span<const char> marks) {
+  const Counted counted(marks.size(), marks);
+  if (counted.discs() == 0) throw std::invalid_argument("the coordination of no discs is not defined");
+  std::size_t ends = 0;
+  for (std::size_t b = 0; b < bonds.size(); ++b) ends += counted.ends(bonds.i[b], bonds.j[b]);
+  return static_cast<double>(ends) / static_cast<double>(counted.discs());
 }
 
 }  // namespace ddem

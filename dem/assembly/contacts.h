@@ -34,7 +34,10 @@ Bonds bonds_within_gap(const Packing& packing, double bond_gap);
 /// half-way between the last gap that is bonded and the first that is not, so that rounding cannot change the
 /// choice. The achieved coordination is within 1/discs of it. Throws std::invalid_argument when no gap up to
 /// two mean radii (and to half a period between centres) gives it: a lattice has whole shells of equal gaps.
-double gap_for_coordination(const Packing& packing, double coordination);
+///
+/// With marks (`counted`, one per disc; none: all discs) the mean is over the discs with a mark other than 0, and bonds
+/// with other discs count as well: for packings whose outermost discs have neighbours on one side only.
+double gap_for_coordination(const Packing& packing, double coordination, std::span<const char> counted = {});
 
 /// Bonds between given pairs of discs (nearest images), ordered by (i, j) with i < j whatever their order in
 /// `pairs`: the same network has the same bits. Throws std::invalid_argument on an index out of range, on a
@@ -43,5 +46,8 @@ Bonds bonds_between(const Packing& packing, std::span<const std::pair<int, int>>
 
 /// Mean number of bonds of a disc, 2 bonds/discs. Throws std::invalid_argument without discs.
 double coordination(const Bonds& bonds, std::size_t discs);
+
+/// The same over the discs with a mark. Throws std::invalid_argument without any.
+double coordination(const Bonds& bonds, std::span<const char> counted);
 
 }  // namespace ddem

@@ -12,7 +12,10 @@ struct ContactParameters {
   double normal_stiffness = 0.0;  ///< k_n, N/m
   double stiffness_ratio = 0.0;   ///< k_t / k_n; at 0 the discs' rotations drop out
   Kinematics kinematics = Kinematics::linear;
+  /// Where positive, it takes the place of normal_stiffness: k_n of a bond in proportion to its size (bond_stiffness.h), Pa.
+  double contact_modulus = 0.0;
 
+  bool uniform() const { return contact_modulus == 0.0; }
   double shear_stiffness() const { return stiffness_ratio * normal_stiffness; }
   bool has_rotation() const { return stiffness_ratio != 0.0; }
 };
@@ -32,6 +35,18 @@ enum class Correction {
 
 enum class Plane { stress, strain };
 
+/// Over which volume V_p the contact forces of a disc are averaged (sigma_p = (1/V_p) sum s (x) F).
+enum class ParticleVolume {
+  disc,  ///< of the disc itself (published)
+  cell   ///< with its share of the voids: V_p over the solid fraction, so that the cells fill the assembly
+};
+
+/// How implicit strains are found.
+enum class StrainSolver {
+  polynomial,          ///< Chebyshev, of fixed degree: symmetric, so that energy is conserved to round-off
+  conjugate_gradients  ///< from the strains of the step before, to a residual: fewer iterations for soft discs
+};
+
 struct DeformationParameters {
   Scheme scheme = Scheme::none;
   Correction correction = Correction::normal;
@@ -40,7 +55,11 @@ struct DeformationParameters {
   Plane plane = Plane::stress;
   int evaluations = 1;       ///< lagged: force evaluations a step
   double relaxation = 1.0;   ///< lagged: weight of the new strain, the rest is that before
-  double tolerance = 1e-4;   ///< implicit: largest relative error of a stiffness against the converged one
+  /// implicit: largest relative error of a stiffness against the converged one (polynomial), or of the strains'
+  /// residual (conjugate gradients).
+  double tolerance = 2.5e-4;
+  StrainSolver solver = StrainSolver::polynomial;
+  ParticleVolume volume = ParticleVolume::disc;
 
   bool active() const { return scheme != Scheme::none; }
 };

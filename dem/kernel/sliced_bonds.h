@@ -22,12 +22,13 @@ struct SlicedBonds {
   AlignedVector<double> nx, ny;            ///< unit normal towards the neighbour
   AlignedVector<double> length;            ///< distance of the centres at the start, m
   AlignedVector<double> arm_own, arm_other;
+  AlignedVector<double> stiffness;         ///< k_n, N/m; empty where all bonds have the same
 
   std::size_t rows() const { return neighbour.size() / kLanes; }
 };
 
-/// `position[d]` is the place of disc d in the solver's order.
-SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position);
+/// `position[d]` is the place of disc d in the solver's order; `stiffness` one value a bond, or empty.
+SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness);
 
 /// An order of the discs in which neighbours are near in memory: bands across the strip's short side.
 /// Returns position[d].

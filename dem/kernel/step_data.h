@@ -6,33 +6,44 @@
 
 namespace ddem {
 
+/// Doubles a disc in the arrays of what its neighbours read: u_x, u_y, theta or eps_xx, eps_yy, eps_xy, and one to align
+/// them.
+constexpr int kQuad = 4;
+
 struct StepData {
   // Bonds, see SlicedBonds.
   const std::int32_t* row_begin;
   const std::int32_t* neighbour;
   const double *nx, *ny, *length, *arm_own, *arm_other;
-  double normal_stiffness, shear_stiffness;
+  double normal_stiffness, shear_stiffness;  ///< the same for every bond, or
+  const double* bond_stiffness;              ///< k_n of every stored half-bond, and
+  double stiffness_ratio;                    ///< k_t / k_n
 
-  // Discs. Displacements are read at step n and written at step n + 1 in the other buffer; velocities (n - 1/2 to
-  // n + 1/2) are updated in place, since no other disc reads them.
-  const double *ux, *uy, *theta;
-  double *ux_next, *uy_next, *theta_next;
+  // Discs. Displacements and rotations (kQuad a disc) are read at step n and written at step n + 1 in the other buffer;
+  // velocities (n - 1/2 to n + 1/2) are updated in place, since no other disc reads them.
+  const double* motion;
+  double* motion_next;
   double *vx, *vy, *omega;
   const double *kick_x, *kick_y, *kick_theta;  ///< dt / mass, dt / inertia; 0 where held
   double dt;
 
-  // Particle strains: in and out; D of the disc's material over its volume.
-  const double *exx, *eyy, *exy;
-  double *exx_next, *eyy_next, *exy_next;
+  // Particle strains (kQuad a disc): in and out; D of the disc's material over its volume.
+  const double* strain;
+  double* strain_next;
   const double* inverse_volume;
   double compliance_direct, compliance_coupling, compliance_shear;
   double keep_strain, new_strain;  ///< lagged: 1 - relaxation, relaxation
 
-  // Implicit strains by Chebyshev iteration: D S K C u, the last change, and the weights of this iteration.
-  double *source_xx, *source_yy, *source_xy;
-  double *change_xx, *change_yy, *change_xy;
-  double first_weight;                    ///< of the source, in the first approximation
-  double change_weight, residual_weight;  ///< of the last change and the residual, in the next one
+  // Implicit strains (kQuad a disc): f = (V C)^-1 S K C u (polynomial), or the residual (conjugate gradients).
+  double* source;
+  double relaxation;  ///< polynomial: weight of the residual in the next approximation
+
+  // Conjugate gradients.
+  double *direction, *applied;     ///< kQuad a disc; applied: (1 + T) direction
+  const double* volume;            ///< V_p, m3; 0 where there is no disc
+  double *product, *scale;         ///< inner products, a share of each disc
+  double elasticity_direct, elasticity_coupling, elasticity_shear;  ///< eps : C_p : eps by components
+  double step_length, direction_weight;
 
   // Nonlinear kinematics, one value a stored half-bond: relative displacement and weighted rotation of the step before,
   // accumulated slip.
@@ -47,6 +58,7 @@ struct StepFeatures {
   bool nonlinear = false;
   StrainCoupling strain = StrainCoupling::none;
   bool implicit = false;
+  bool per_bond_stiffness = false;
 };
 
 /// Works on the slices [begin, end).
@@ -55,8 +67,14 @@ using SliceFunction = void (*)(const StepData&, int begin, int end);
 struct StepKernels {
   SliceFunction step = nullptr;      ///< forces, kick and drift; lagged: also the strains of the next evaluation
   SliceFunction evaluate = nullptr;  ///< lagged: a further evaluation of the strains, nothing moves
-  SliceFunction source = nullptr;    ///< implicit: first approximation of the strains from the displacements
-  SliceFunction iterate = nullptr;   ///< implicit: a better approximation from the last
+  // Implicit, polynomial.
+  SliceFunction source = nullptr;   ///< first approximation of the strains from the displacements
+  SliceFunction iterate = nullptr;  ///< a better approximation from the last
+  // Implicit, conjugate gradients.
+  SliceFunction residual = nullptr;  ///< of the strains at hand; the first direction
+  SliceFunction apply = nullptr;     ///< the operator on the direction
+  SliceFunction advance = nullptr;   ///< the next strains and residual
+  SliceFunction turn = nullptr;      ///< the next direction
 };
 
 enum class InstructionSet { baseline, avx2, avx512 };

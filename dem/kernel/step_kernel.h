@@ -5,84 +5,16 @@
 // strains, apply the law, sum the force, moment and stress of each disc; then kick and drift (leapfrog).
 //
 // Implicit strains solve (V C + S K G) eps = S K C u (theory section 3). With T = (V C)^-1 S K G, whose eigenvalues lie
-// in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of Chebyshev iterations from zero:
-// a polynomial of T, so that the effective stiffness is as symmetric as S K G, and conserves its energy exactly.
+// in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of relaxations from zero: a
+// polynomial of T (simulation/strain_polynomial.h), so that the effective stiffness is as symmetric as S K G, and conserves its energy exactly.
 // What a run does not use is not compiled into its kernel (if constexpr on the template parameters).
 
-#include <cmath>
-
-#include "dem/kernel/step_data.h"
+#include "dem/kernel/bond_laws.h"
 
 namespace ddem::DDEM_ISA {
 namespace {
 
-constexpr int kWidth = 8;  // kLanes
-
-struct Pack {
-  alignas(64) double v[kWidth];
-  double operator[](int l) const { return v[l]; }
-  double& operator[](int l) { return v[l]; }
-};
-
-/// Overlaps of one bond and the current normal and arms.
-struct BondState {
-  double nx, ny, arm_own, arm_other;
-  double u_n, u_t;
-};
-
-/// theory section 1: small displacement, the geometry of the start.
-struct LinearKinematics {
-  template <bool kRotation>
-  static BondState overlaps(const StepData& d, int k, double dx, double dy, double theta_own, double theta_other) {
-    BondState b{d.nx[k], d.ny[k], d.arm_own[k], d.arm_other[k], 0.0, 0.0};
-    b.u_n = b.nx * dx + b.ny * dy;
-    // The sum of the two rotations first: symmetric in the two ends, so both ends of a bond get the same bits.
-    if constexpr (kRotation) b.u_t = (b.nx * dy - b.ny * dx) - (b.arm_own * theta_own + b.arm_other * theta_other);
-    return b;
-  }
-};
-
-/// Current geometry; the slip is summed from step to step along the current tangent:
-/// du_t = L (d alpha - d(w_i theta_i + w_j theta_j)), alpha the angle of the bond, w = a / L.
-struct NonlinearKinematics {
-  template <bool kRotation>
-  static BondState overlaps(const StepData& d, int k, double dx, double dy, double theta_own, double theta_other) {
-    const double l0 = d.length[k], x0 = l0 * d.nx[k], y0 = l0 * d.ny[k];
-    const double x = x0 + dx, y = y0 + dy, l = std::sqrt(x * x + y * y);
-    const double stretch = l / l0;
-    BondState b{x / l, y / l, d.arm_own[k] * stretch, d.arm_other[k] * stretch, 0.0, 0.0};
-    // L - L0 without the cancellation.
-    b.u_n = (2.0 * (x0 * dx + y0 * dy) + (dx * dx + dy * dy)) / (l + l0);
-    if constexpr (kRotation) {
-      const double px = x0 + d.previous_dx[k], py = y0 + d.previous_dy[k], pl = std::sqrt(px * px + py * py);
-      const double sine = (px * (dy - d.previous_dy[k]) - py * (dx - d.previous_dx[k])) / (pl * l);
-      // asin to the fifth power: a step turns a bond by far less than 1e-2, where the rest is below 1e-15 of it.
-      const double s2 = sine * sine;
-      const double turn = sine * (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)));
-      const double rotation = (d.arm_own[k] * theta_own + d.arm_other[k] * theta_other) / l0;
-      d.slip[k] += 0.5 * (l + pl) * (turn - (rotation - d.previous_rotation[k]));
-      d.previous_dx[k] = dx;
-      d.previous_dy[k] = dy;
-      d.previous_rotation[k] = rotation;
-      b.u_t = d.slip[k];
-    }
-    return b;
-  }
-};
-
-struct Strain {
-  double xx, yy, xy;
-};
-
-/// a n.eps.n and a t.eps.n: what a disc's uniform strain adds to the overlaps.
-inline double normal_part(const Strain& e, double nx, double ny) {
-  return nx * nx * e.xx + ny * ny * e.yy + 2.0 * (nx * ny) * e.xy;
-}
-inline double tangential_part(const Strain& e, double nx, double ny) {
-  return nx * ny * (e.yy - e.xx) + (nx * nx - ny * ny) * e.xy;
-}
-
-template <class Kinematics, bool kRotation, StrainCoupling kStrain>
+template <class Kinematics, class Stiffness, bool kRotation, StrainCoupling kStrain>
 struct StepKernel {
   static constexpr bool kDeformable = kStrain != StrainCoupling::none;
 
@@ -90,89 +22,123 @@ struct StepKernel {
     Pack fx{}, fy{}, moment{}, sxx{}, syy{}, sxy{};
   };
 
-  /// The one loop over bonds: bond(k, p, l, sums) for each bond k of disc p in lane l, then disc(p, l, sums).
-  template <class Bond, class Disc>
-  static void for_slices(const StepData& d, int begin, int end, Bond bond, Disc disc) {
+  /// The one loop over bonds. For each slice of eight discs, the first of which is p: own = disc_data(p), then
+  /// bond(k, own, sums) for each of its rows, k the row's first half-bond, then disc(p, own, sums).
+  template <class Own, class Bond, class Disc>
+  DDEM_INLINE static void for_slices(const StepData& d, int begin, int end, Own own_data, Bond bond, Disc disc) {
     for (int slice = begin; slice < end; ++slice) {
-      const int first = slice * kWidth;
+      const int p = slice * kWidth;
+      const auto own = own_data(p);
       Sums sum;
-      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) {
-#pragma GCC ivdep
-        for (int l = 0; l < kWidth; ++l) bond(row * kWidth + l, first + l, l, sum);
-      }
-#pragma GCC ivdep
-      for (int l = 0; l < kWidth; ++l) disc(first + l, l, sum);
+      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) bond(row * kWidth, own, sum);
+      disc(p, own, sum);
     }
   }
 
-  static BondState rigid(const StepData& d, int k, int p) {
-    const int q = d.neighbour[k];
-    const double theta_own = kRotation ? d.theta[p] : 0.0, theta_other = kRotation ? d.theta[q] : 0.0;
-    return Kinematics::template overlaps<kRotation>(d, k, d.ux[q] - d.ux[p], d.uy[q] - d.uy[p], theta_own, theta_other);
+  /// What the bonds of a slice read of their own disc.
+  struct Own {
+    Triple motion, strain;
+  };
+  DDEM_INLINE static Own own_state(const StepData& d, int p) {
+    Own o{load_triple(d.motion, p), {}};
+    if constexpr (kDeformable) o.strain = load_triple(d.strain, p);
+    return o;
   }
 
-  static Strain strain_of(const StepData& d, int p) { return {d.exx[p], d.eyy[p], d.exy[p]}; }
+  DDEM_INLINE static BondState rigid(const StepData& d, int k, const Triple& own) {
+    return Kinematics::template overlaps<kRotation>(d, k, own, gather(d.motion, d.neighbour + k));
+  }
 
-  static void correct(const StepData& d, int k, int p, BondState& b) {
+  DDEM_INLINE static void correct(const StepData& d, int k, const Triple& own, BondState& b) {
     if constexpr (kDeformable) {
-      const Strain own = strain_of(d, p), other = strain_of(d, d.neighbour[k]);
-      b.u_n -= b.arm_own * normal_part(own, b.nx, b.ny) + b.arm_other * normal_part(other, b.nx, b.ny);
-      if constexpr (kRotation && kStrain == StrainCoupling::full) {
-        b.u_t -= b.arm_own * tangential_part(own, b.nx, b.ny) + b.arm_other * tangential_part(other, b.nx, b.ny);
-      }
+      const Vector v = approach(b, own, gather(d.strain, d.neighbour + k));
+      b.u_n -= b.nx * v.x + b.ny * v.y;
+      if constexpr (kRotation && kStrain == StrainCoupling::full) b.u_t -= b.nx * v.y - b.ny * v.x;
     }
   }
 
   /// Force and moment on the disc, or the stress in it, or both.
   template <bool kForce, bool kStress>
-  static void add(const StepData& d, const BondState& b, int l, Sums& sum) {
-    const double f_n = d.normal_stiffness * b.u_n;
-    double fx = f_n * b.nx, fy = f_n * b.ny;
-    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_stress(b, fx, fy, l, sum);
+  DDEM_INLINE static void add(const StepData& d, const BondState& b, int k, Sums& sum) {
+    const Pack f_n = Stiffness::normal(d, k) * b.u_n;
+    Pack fx = f_n * b.nx, fy = f_n * b.ny;
+    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_stress(b, fx, fy, sum);
     if constexpr (kRotation) {
-      const double f_t = d.shear_stiffness * b.u_t;
+      const Pack f_t = Stiffness::shear(d, k) * b.u_t;
       fx -= f_t * b.ny;
       fy += f_t * b.nx;
-      if constexpr (kForce) sum.moment[l] += b.arm_own * f_t;
-      if constexpr (kStress && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, l, sum);
+      if constexpr (kForce) sum.moment += b.arm_own * f_t;
+      if constexpr (kStress && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, sum);
     }
     if constexpr (kForce) {
-      sum.fx[l] += fx;
-      sum.fy[l] += fy;
+      sum.fx += fx;
+      sum.fy += fy;
     }
   }
 
-  /// V_p sigma_p = sum_c s_c (x) F_c, symmetrised, s_c = a n.
-  static void add_stress(const BondState& b, double fx, double fy, int l, Sums& sum) {
-    const double sx = b.arm_own * b.nx, sy = b.arm_own * b.ny;
-    sum.sxx[l] += sx * fx;
-    sum.syy[l] += sy * fy;
-    sum.sxy[l] += 0.5 * (sx * fy + sy * fx);
+  /// V_p sigma_p = sum_c s_c (x) F_c, s_c = a n; sxy holds the sum of both shear stresses.
+  DDEM_INLINE static void add_stress(const BondState& b, Pack fx, Pack fy, Sums& sum) {
+    const Pack sx = b.arm_own * b.nx, sy = b.arm_own * b.ny;
+    sum.sxx += sx * fx;
+    sum.syy += sy * fy;
+    sum.sxy += sx * fy + sy * fx;
   }
 
   /// eps_p = D : sigma_p.
-  static Strain strain_from(const StepData& d, int p, int l, const Sums& sum) {
-    const double w = d.inverse_volume[p];
-    const double sxx = w * sum.sxx[l], syy = w * sum.syy[l], sxy = w * sum.sxy[l];
+  DDEM_INLINE static Triple strain_from(const StepData& d, int p, const Sums& sum) {
+    const Pack w = load(d.inverse_volume + p);
+    const Pack sxx = w * sum.sxx, syy = w * sum.syy, sxy = 0.5 * (w * sum.sxy);
     return {d.compliance_direct * sxx + d.compliance_coupling * syy, d.compliance_coupling * sxx + d.compliance_direct * syy,
             d.compliance_shear * sxy};
   }
 
-  static void relax_strain(const StepData& d, int p, const Strain& e) {
-    d.exx_next[p] = d.keep_strain * d.exx[p] + d.new_strain * e.xx;
-    d.eyy_next[p] = d.keep_strain * d.eyy[p] + d.new_strain * e.yy;
-    d.exy_next[p] = d.keep_strain * d.exy[p] + d.new_strain * e.xy;
+  DDEM_INLINE static void relax_strain(const StepData& d, int p, const Triple& before, const Triple& e) {
+    store_triple(d.strain_next, p, combine(d.keep_strain, before, d.new_strain, e));
   }
 
-  static void kick_and_drift(const StepData& d, int p, int l, const Sums& sum) {
-    d.vx[p] += d.kick_x[p] * sum.fx[l];
-    d.vy[p] += d.kick_y[p] * sum.fy[l];
-    d.ux_next[p] = d.ux[p] + d.dt * d.vx[p];
-    d.uy_next[p] = d.uy[p] + d.dt * d.vy[p];
-    if constexpr (kRotation) {
-      d.omega[p] += d.kick_theta[p] * sum.moment[l];
-      d.theta_next[p] = d.theta[p] + d.dt * d.omega[p];
-    }
+  DDEM_INLINE static void kick_and_drift(const StepData& d, int p, const Triple& u, const Sums& sum) {
+    const auto kicked = [p](double* velocity, const double* kick, Pack force) DDEM_INLINE_LAMBDA {
+      const Pack v = load(velocity + p) + load(kick + p) * force;
+      store(velocity + p, v);
+      return v;
+    };
+    Triple next{u.a + d.dt * kicked(d.vx, d.kick_x, sum.fx), u.b + d.dt * kicked(d.vy, d.kick_y, sum.fy), Pack{}};
+    if constexpr (kRotation) next.c = u.c + d.dt * kicked(d.omega, d.kick_theta, sum.moment);
+    store_triple(d.motion_next, p, next);
+  }
+
+  DDEM_INLINE static Triple combine(double wx, const Triple& x, double wy, const Triple& y) {
+    return {wx * x.a + wy * y.a, wx * x.b + wy * y.b, wx * x.c + wy * y.c};
+  }
+  DDEM_INLINE static Triple difference(const Triple& x, const Triple& y) { return {x.a - y.a, x.b - y.b, x.c - y.c}; }
+  /// x + w y.
+  DDEM_INLINE static Triple along(const Triple& x, double w, const Triple& y) { return {x.a + w * y.a, x.b + w * y.b, x.c + w * y.c}; }
+
+  /// What a row of bonds adds under the displacements and strains at hand.
+  template <bool kForce, bool kStress>
+  DDEM_INLINE static auto moved(const StepData& d) {
+    return [&d](int k, const Own& own, Sums& sum) DDEM_INLINE_LAMBDA {
+      BondState b = rigid(d, k, own.motion);
+      correct(d, k, own.strain, b);
+      add<kForce, kStress>(d, b, k, sum);
+    };
+  }
+
+  /// Under the strains alone: overlaps -G eps, whose stress gives -T eps.
+  DDEM_INLINE static auto strained(const StepData& d) {
+    return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
+      const BondState b = bond_at(d, k);
+      const Vector v = approach(b, own, gather(d.strain, d.neighbour + k));
+      // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).
+      const Pack k_n = Stiffness::normal(d, k);
+      if constexpr (kRotation && kStrain == StrainCoupling::full) {
+        const Pack k_t = Stiffness::shear(d, k), g = (k_n - k_t) * (b.nx * v.x + b.ny * v.y);
+        add_stress(b, -(k_t * v.x + g * b.nx), -(k_t * v.y + g * b.ny), sum);
+      } else {
+        const Pack f_n = -k_n * (b.nx * v.x + b.ny * v.y);
+        add_stress(b, f_n * b.nx, f_n * b.ny, sum);
+      }
+    };
   }
 
   /// Forces from the strains at hand; lagged: and from these forces the strains to come.
@@ -180,99 +146,144 @@ struct StepKernel {
   static void step(const StepData& data, int begin, int end) {
     const StepData d = data;  // pointers in registers: no store can change them
     for_slices(
-        d, begin, end,
-        [&d](int k, int p, int l, Sums& sum) {
-          BondState b = rigid(d, k, p);
-          correct(d, k, p, b);
-          add<true, kLagged>(d, b, l, sum);
-        },
-        [&d](int p, int l, const Sums& sum) {
-          kick_and_drift(d, p, l, sum);
-          if constexpr (kLagged) relax_strain(d, p, strain_from(d, p, l, sum));
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<true, kLagged>(d),
+        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
+          kick_and_drift(d, p, own.motion, sum);
+          if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, p, sum));
         });
   }
 
   static void evaluate(const StepData& data, int begin, int end) {
     const StepData d = data;
     for_slices(
-        d, begin, end,
-        [&d](int k, int p, int l, Sums& sum) {
-          BondState b = rigid(d, k, p);
-          correct(d, k, p, b);
-          add<false, true>(d, b, l, sum);
-        },
-        [&d](int p, int l, const Sums& sum) { relax_strain(d, p, strain_from(d, p, l, sum)); });
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<false, true>(d),
+        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA { relax_strain(d, p, own.strain, strain_from(d, p, sum)); });
   }
 
-  /// f = (V C)^-1 S K C u, and the first approximation f / theta, theta the middle of the spectrum of 1 + T.
+  /// f = (V C)^-1 S K C u, and the first approximation from zero.
   static void source(const StepData& data, int begin, int end) {
     const StepData d = data;
     for_slices(
-        d, begin, end, [&d](int k, int p, int l, Sums& sum) { add<false, true>(d, rigid(d, k, p), l, sum); },
-        [&d](int p, int l, const Sums& sum) {
-          const Strain f = strain_from(d, p, l, sum);
-          d.source_xx[p] = f.xx;
-          d.source_yy[p] = f.yy;
-          d.source_xy[p] = f.xy;
-          d.exx_next[p] = d.change_xx[p] = d.first_weight * f.xx;
-          d.eyy_next[p] = d.change_yy[p] = d.first_weight * f.yy;
-          d.exy_next[p] = d.change_xy[p] = d.first_weight * f.xy;
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.motion, p); },
+        [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA { add<false, true>(d, rigid(d, k, own), k, sum); },
+        [&d](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
+          const Triple f = strain_from(d, p, sum);
+          store_triple(d.source, p, f);
+          store_triple(d.strain_next, p, {d.relaxation * f.a, d.relaxation * f.b, d.relaxation * f.c});
         });
   }
 
-  /// The residual f - eps - T eps, and the next approximation. Overlaps of strains alone are -G eps, so their stress
-  /// gives -T eps.
+  /// The next approximation, by the residual f - eps - T eps.
   static void iterate(const StepData& data, int begin, int end) {
     const StepData d = data;
     for_slices(
-        d, begin, end,
-        [&d](int k, int p, int l, Sums& sum) {
-          BondState b{d.nx[k], d.ny[k], d.arm_own[k], d.arm_other[k], 0.0, 0.0};
-          correct(d, k, p, b);
-          add<false, true>(d, b, l, sum);
-        },
-        [&d](int p, int l, const Sums& sum) {
-          const Strain minus_t = strain_from(d, p, l, sum);
-          const auto next = [&](double source, double minus_te, double e, double* change) {
-            *change = d.change_weight * *change + d.residual_weight * ((source - e) + minus_te);
-            return e + *change;
-          };
-          d.exx_next[p] = next(d.source_xx[p], minus_t.xx, d.exx[p], &d.change_xx[p]);
-          d.eyy_next[p] = next(d.source_yy[p], minus_t.yy, d.eyy[p], &d.change_yy[p]);
-          d.exy_next[p] = next(d.source_xy[p], minus_t.xy, d.exy[p], &d.change_xy[p]);
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained(d),
+        [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
+          const Triple minus_t = strain_from(d, p, sum), rest = difference(load_triple(d.source, p), e);
+          store_triple(d.strain_next, p, along(e, d.relaxation, {rest.a + minus_t.a, rest.b + minus_t.b, rest.c + minus_t.c}));
         });
   }
 
-  static StepKernels kernels(bool implicit) {
-    if constexpr (kDeformable) {
-      if (implicit) return {&step<false>, nullptr, &source, &iterate};
-      return {&step<true>, &evaluate, nullptr, nullptr};
+  /// Conjugate gradients for (1 + T) eps = f, preconditioned with V C, in whose inner product 1 + T is symmetric:
+  /// the residual r = f - T eps - eps of the strains at hand, the first direction, and the products <r, r>, <f - T eps,
+  /// f - T eps> to compare it with.
+  static void residual(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for_slices(
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<false, true>(d),
+        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
+          const Triple s = strain_from(d, p, sum), r = difference(s, own.strain);
+          store_triple(d.source, p, r);
+          store_triple(d.direction, p, r);
+          store(d.product + p, inner(d, p, r, r));
+          store(d.scale + p, inner(d, p, s, s));
+        });
+  }
+
+  /// q = (1 + T) direction and <direction, q>.
+  static void apply(const StepData& data, int begin, int end) {
+    StepData d = data;
+    d.strain = d.direction;
+    for_slices(
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained(d),
+        [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
+          const Triple q = difference(e, strain_from(d, p, sum));
+          store_triple(d.applied, p, q);
+          store(d.product + p, inner(d, p, e, q));
+        });
+  }
+
+  /// The next strains and their residual, by the step length along the direction; <r, r>.
+  static void advance(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for (int p = begin * kWidth; p < end * kWidth; p += kWidth) {
+      store_triple(d.strain_next, p, along(load_triple(d.strain, p), d.step_length, load_triple(d.direction, p)));
+      const Triple r = along(load_triple(d.source, p), -d.step_length, load_triple(d.applied, p));
+      store_triple(d.source, p, r);
+      store(d.product + p, inner(d, p, r, r));
     }
-    return {&step<false>, nullptr, nullptr, nullptr};
+  }
+
+  /// The next direction: the residual, conjugate to the directions before.
+  static void turn(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for (int p = begin * kWidth; p < end * kWidth; p += kWidth) {
+      store_triple(d.direction, p, along(load_triple(d.source, p), d.direction_weight, load_triple(d.direction, p)));
+    }
+  }
+
+  /// V_p x : C_p : y.
+  DDEM_INLINE static Pack inner(const StepData& d, int p, const Triple& x, const Triple& y) {
+    return load(d.volume + p) * (d.elasticity_direct * (x.a * y.a + x.b * y.b) + d.elasticity_coupling * (x.a * y.b + x.b * y.a) +
+                                 d.elasticity_shear * (x.c * y.c));
+  }
+
+  static StepKernels kernels(const StepFeatures& f) {
+    StepKernels k;
+    if constexpr (kDeformable) {
+      if constexpr (Kinematics::kLinear) {
+        if (f.implicit) {
+          k.step = &step<false>;
+          k.source = &source, k.iterate = &iterate;
+          k.residual = &residual, k.apply = &apply, k.advance = &advance, k.turn = &turn;
+          return k;
+        }
+      }
+      k.step = &step<true>;
+      k.evaluate = &evaluate;
+    } else {
+      k.step = &step<false>;
+    }
+    return k;
   }
 };
 
-template <class Kinematics, bool kRotation>
+template <class Kinematics, class Stiffness, bool kRotation>
 StepKernels choose_strain(const StepFeatures& f) {
   switch (f.strain) {
-    case StrainCoupling::none: return StepKernel<Kinematics, kRotation, StrainCoupling::none>::kernels(false);
-    case StrainCoupling::normal: return StepKernel<Kinematics, kRotation, StrainCoupling::normal>::kernels(f.implicit);
-    case StrainCoupling::full: return StepKernel<Kinematics, kRotation, StrainCoupling::full>::kernels(f.implicit);
+    case StrainCoupling::none: return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::none>::kernels(f);
+    case StrainCoupling::normal: return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::normal>::kernels(f);
+    case StrainCoupling::full: return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::full>::kernels(f);
     case StrainCoupling::normal_only_stress:
-      return StepKernel<Kinematics, kRotation, StrainCoupling::normal_only_stress>::kernels(f.implicit);
+      return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::normal_only_stress>::kernels(f);
   }
   return {};
 }
 
-template <class Kinematics>
+template <class Kinematics, class Stiffness>
 StepKernels choose_rotation(const StepFeatures& f) {
-  return f.rotation ? choose_strain<Kinematics, true>(f) : choose_strain<Kinematics, false>(f);
+  return f.rotation ? choose_strain<Kinematics, Stiffness, true>(f) : choose_strain<Kinematics, Stiffness, false>(f);
+}
+
+template <class Kinematics>
+StepKernels choose_stiffness(const StepFeatures& f) {
+  return f.per_bond_stiffness ? choose_rotation<Kinematics, BondStiffness>(f) : choose_rotation<Kinematics, UniformStiffness>(f);
 }
 
 }  // namespace
 
 StepKernels choose(const StepFeatures& f) {
-  return f.nonlinear ? choose_rotation<NonlinearKinematics>(f) : choose_rotation<LinearKinematics>(f);
+  return f.nonlinear ? choose_stiffness<NonlinearKinematics>(f) : choose_stiffness<LinearKinematics>(f);
 }
 
 }  // namespace ddem::DDEM_ISA

@@ -8,19 +8,19 @@
 #include <stdexcept>
 #include <thread>
 
-#include "dem/simulation/energy.h"
+#include "dem/simulation/recorders.h"
 #include "dem/simulation/stepper.h"
 
 namespace ddem {
 namespace {
 
 constexpr long kCheckEvery = 16;     // steps between looks at divergence
-constexpr int kAudits = 50;          // energy audits a run
 constexpr double kDivergence = 1e3;  // times the largest displacement that the load can have put in
 
 void check_input(const Assembly& a, const SimulationInput& in) {
   if (!(in.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
   if (in.steps < 0) throw std::invalid_argument("the number of steps must not be negative");
+  if (in.energy_samples < 1 || in.snapshots < 0) throw std::invalid_argument("energy_samples must be at least 1, snapshots not negative");
   if (in.sample_every < 1) throw std::invalid_argument("sample_every must be at least 1");
   const DeformationParameters& deformation = in.deformation;
   if (deformation.evaluations < 1) throw std::invalid_argument("evaluations must be at least 1");
@@ -60,100 +60,30 @@ double divergence_bound(const SimulationInput& in) {
   return bound > 0.0 ? kDivergence * bound : HUGE_VAL;
 }
 
-class Recorder {
- public:
-  Recorder(const SimulationInput& in, const Stepper& stepper) : in_(in), stepper_(stepper) {
-    const std::size_t receivers = in.receivers.size(), samples = static_cast<std::size_t>(in.steps / in.sample_every + 1);
-    signals_.time.reserve(samples);
-    for (auto* s : {&signals_.ux, &signals_.uy, &signals_.theta}) {
-      s->resize(receivers);
-      for (auto& values : *s) values.reserve(samples);
-    }
-  }
-
-  void sample() {
-    if (stepper_.step() % in_.sample_every != 0) return;
-    const StepData& d = stepper_.data();
-    signals_.time.push_back(static_cast<double>(stepper_.step()) * in_.time_step);
-    for (std::size_t r = 0; r < in_.receivers.size(); ++r) {
-      double ux = 0.0, uy = 0.0, theta = 0.0;
-      for (const int disc : in_.receivers[r].discs) {
-        const int p = stepper_.place_of(disc);
-        ux += d.ux[p];
-        uy += d.uy[p];
-        if (in_.contact.has_rotation()) theta += d.theta[p];
-      }
-      const double n = static_cast<double>(in_.receivers[r].discs.size());
-      signals_.ux[r].push_back(ux / n);
-      signals_.uy[r].push_back(uy / n);
-      signals_.theta[r].push_back(theta / n);
-    }
-  }
-
-  Signals take() { return std::move(signals_); }
-
- private:
-  const SimulationInput& in_;
-  const Stepper& stepper_;
-  Signals signals_;
-};
-
-/// Follows the leapfrog invariant. After a step the stepper holds u_{n+1} in the current buffers and u_n in the others.
-class DriftMonitor {
- public:
-  DriftMonitor(const Assembly& a, const SimulationInput& in, const Stepper& s)
-      : audit_(a, in.contact, in.deformation, s.order()), stepper_(s) {
-    active_ = in.contact.kinematics == Kinematics::linear;
-    every_ = std::max<long>(1, in.steps / kAudits);
-    if (in.drive) first_ = static_cast<long>(std::ceil(in.drive->duration / in.time_step)) + 1;
-  }
-
-  void after_step() {
-    const long n = stepper_.step();
-    if (!active_ || n < first_ || (have_reference_ && n % every_ != 0)) return;
-    const StepData& d = stepper_.data();
-    const double e = audit_.energy({d.ux_next, d.uy_next, d.theta_next}, {d.ux, d.uy, d.theta}, {d.vx, d.vy, d.omega},
-                                   stepper_.strains_in_use());
-    if (!have_reference_) {
-      reference_ = e;
-      have_reference_ = true;
-    } else if (reference_ > 0.0) {
-      drift_ = std::max(drift_, std::abs(e / reference_ - 1.0));
-    }
-  }
-
-  std::optional<double> drift() const {
-    return active_ && have_reference_ && std::isfinite(drift_) ? std::optional(drift_) : std::nullopt;
-  }
-
- private:
-  EnergyAudit audit_;
-  const Stepper& stepper_;
-  bool active_ = false, have_reference_ = false;
-  long every_ = 1, first_ = 1;
-  double reference_ = 0.0, drift_ = 0.0;
-};
-
 /// What happens between two stages and steps, on one thread; returns false to stop.
 class Overseer {
  public:
   Overseer(const Assembly& a, const SimulationInput& in, Stepper& stepper, SimulationResult& result)
-      : in_(in), stepper_(stepper), result_(result), recorder_(in, stepper), drift_(a, in, stepper),
-        bound_(divergence_bound(in)), report_every_(std::max<long>(kCheckEvery, in.steps / 200)) {
+      : in_(in), stepper_(stepper), result_(result), recorder_(in, stepper), energies_(a, in, stepper),
+        snapshots_(a, in, stepper), bound_(divergence_bound(in)), report_every_(std::max<long>(kCheckEvery, in.steps / 200)) {
     recorder_.sample();
   }
 
   bool finish_stage() {
-    if (!stepper_.finish_stage()) return true;
+    if (!stepper_.finish_stage()) {
+      result_.breakdown = stepper_.breakdown();
+      return !result_.breakdown;
+    }
     const long n = stepper_.step();
     if (n % kCheckEvery == 0 || n == in_.steps) {
       if (const int disc = stepper_.diverged_disc(bound_); disc >= 0) {
-        result_.divergence = Divergence{n, disc};
+        result_.breakdown = Breakdown{Breakdown::Cause::diverged, n, disc};
         return false;
       }
     }
     recorder_.sample();
-    drift_.after_step();
+    energies_.after_step();
+    snapshots_.after_step();
     if (in_.on_progress && n % report_every_ == 0 &&
         !in_.on_progress(static_cast<double>(n) / static_cast<double>(in_.steps))) {
       result_.stopped = true;
@@ -164,7 +94,9 @@ class Overseer {
 
   void finish() {
     result_.signals = recorder_.take();
-    result_.energy_drift = drift_.drift();
+    result_.energy_drift = energies_.drift();
+    result_.energy = energies_.take();
+    result_.snapshots = snapshots_.take();
     result_.steps_done = stepper_.step();
     result_.final_state = stepper_.state();
   }
@@ -173,8 +105,9 @@ class Overseer {
   const SimulationInput& in_;
   Stepper& stepper_;
   SimulationResult& result_;
-  Recorder recorder_;
-  DriftMonitor drift_;
+  SignalRecorder recorder_;
+  EnergyRecorder energies_;
+  SnapshotRecorder snapshots_;
   double bound_;
   long report_every_;
 };

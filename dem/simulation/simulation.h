@@ -8,6 +8,7 @@
 
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
+#include "dem/simulation/audit.h"
 #include "dem/statics/static_solver.h"
 
 namespace ddem {
@@ -44,6 +45,8 @@ struct SimulationInput {
   long steps = 0;
   int sample_every = 1;
   std::vector<Receiver> receivers;
+  int energy_samples = 50;  ///< about so many over the run, and the last step
+  int snapshots = 0;        ///< so many over the run, equally spaced, the last at its end
   int threads = 1;
   /// Called now and then with the fraction done; return false to stop.
   std::function<bool(double)> on_progress;
@@ -55,19 +58,42 @@ struct Signals {
   std::vector<std::vector<double>> ux, uy, theta;
 };
 
-struct Divergence {
+/// A run that could not go on.
+struct Breakdown {
+  enum class Cause {
+    diverged,               ///< displacements that are not finite, or far beyond what the load can cause
+    strains_not_converged,  ///< conjugate gradients found no implicit strains
+    strains_indefinite      ///< the system of the implicit strains is not positive definite
+  } cause = Cause::diverged;
   long step = 0;
   int disc = 0;
 };
 
+/// Energies at a time, J: see audit.h.
+struct EnergySample {
+  double time = 0.0;
+  Energies energies;
+};
+
+/// All discs at a time; one value a disc. Stress and strain of a disc: tensor components, Pa and 1. For nonlinear
+/// kinematics without stress; for rigid discs without strain (empty).
+struct Snapshot {
+  double time = 0.0;
+  InitialState state;  ///< velocities half a step later than the displacements
+  TensorField stress, strain;
+};
+
 struct SimulationResult {
   Signals signals;
-  std::optional<Divergence> divergence;  ///< set: the run stopped there, its signals end before
+  std::optional<Breakdown> breakdown;  ///< set: the run stopped there, its signals end before
   bool stopped = false;                  ///< on_progress asked for it
   long steps_done = 0;
   double wall_seconds = 0.0;  ///< of the time loop
-  /// Largest relative deviation of the leapfrog invariant (see energy.h) from its first value, from the end of the drive on. Empty for nonlinear kinematics, which has no such invariant.
+  /// Largest relative deviation of the leapfrog invariant (see audit.h) from its first value, from the end of the drive
+  /// on. Empty for nonlinear kinematics, which has no such invariant.
   std::optional<double> energy_drift;
+  std::vector<EnergySample> energy;  ///< likewise empty
+  std::vector<Snapshot> snapshots;
   InitialState final_state;  ///< displacements at the last step, velocities half a step before
 };
 

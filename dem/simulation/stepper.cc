@@ -1,8 +1,11 @@
 #include "dem/simulation/stepper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "dem/assembly/bond_stiffness.h"
+#include "dem/assembly/particle_volume.h"
 #include "dem/spectra/spectra.h"
 
 namespace ddem {
@@ -29,39 +32,44 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       deformable_(input.deformation.active()),
       drive_(input.drive),
       implicit_(input.deformation.scheme == Scheme::implicit) {
-  bonds_ = slice_bonds(a.bonds, position_);
+  const bool uniform = input.contact.uniform();
+  bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact));
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
-  for (auto* array : {&ux_, &uy_, &ux_next_, &uy_next_, &vx_, &vy_, &kick_x_, &kick_y_}) array->assign(padded_, 0.0);
-  if (rotation_) {
-    for (auto* array : {&theta_, &theta_next_, &omega_, &kick_theta_}) array->assign(padded_, 0.0);
-  }
-  if (deformable_) {
-    for (auto* array : {&exx_, &eyy_, &exy_, &exx_next_, &eyy_next_, &exy_next_, &inverse_volume_}) {
-      array->assign(padded_, 0.0);
-    }
-  }
-  if (implicit_) {
-    for (auto* array : {&source_xx_, &source_yy_, &source_xy_, &change_xx_, &change_yy_, &change_xy_}) {
-      array->assign(padded_, 0.0);
-    }
-    // Lanczos finds the radius to 1e-5 or better; beyond the interval the iteration would grow.
-    const double radius = fixed_point_radius(a, input.contact, input.deformation);
-    chebyshev_ = chebyshev_weights(radius * (1.0 + 1e-3), input.deformation.tolerance);
-  }
-  stages_ = implicit_ ? static_cast<int>(chebyshev_.size()) + 1 : deformable_ ? input.deformation.evaluations : 1;
+  size_arrays(input);
+  set_parameters(a, input);
+  if (deformable_) prepare_strains(a, input);
   const bool nonlinear = input.contact.kinematics == Kinematics::nonlinear;
-  if (nonlinear && rotation_) {
+  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform}, isa);
+  load(input.initial);
+  start_leapfrog();
+  begin_step();
+}
+
+void Stepper::size_arrays(const SimulationInput& input) {
+  for (auto* array : {&vx_, &vy_, &kick_x_, &kick_y_}) array->assign(padded_, 0.0);
+  if (rotation_) {
+    for (auto* array : {&omega_, &kick_theta_}) array->assign(padded_, 0.0);
+  }
+  for (auto* array : {&motion_, &motion_next_}) array->assign(kQuad * padded_, 0.0);
+  if (deformable_) {
+    inverse_volume_.assign(padded_, 0.0);
+    for (auto* array : {&strain_, &strain_next_}) array->assign(kQuad * padded_, 0.0);
+  }
+  if (implicit_) source_.assign(kQuad * padded_, 0.0);
+  if (rotation_ && input.contact.kinematics == Kinematics::nonlinear) {
     for (auto* array : {&previous_dx_, &previous_dy_, &previous_rotation_, &slip_}) {
       array->assign(bonds_.neighbour.size(), 0.0);
     }
   }
+}
+
+void Stepper::set_parameters(const Assembly& a, const SimulationInput& input) {
   const double dt = input.time_step;
   for (std::size_t d = 0; d < discs_; ++d) {
     const int p = position_[d];
     kick_x_[p] = held(input.held.x, d) ? 0.0 : dt / a.mass[d];
     kick_y_[p] = held(input.held.y, d) ? 0.0 : dt / a.mass[d];
     if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt / a.inertia[d];
-    if (deformable_) inverse_volume_[p] = 1.0 / a.volume[d];
   }
   if (drive_) {
     auto& kick = drive_->direction == Direction::x ? kick_x_ : kick_y_;
@@ -70,43 +78,91 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   data_.dt = dt;
   data_.normal_stiffness = input.contact.normal_stiffness;
   data_.shear_stiffness = input.contact.shear_stiffness();
-  if (deformable_) {
-    const Compliance c = disc_compliance(input.deformation);
-    data_.compliance_direct = c.direct;
-    data_.compliance_coupling = c.coupling;
-    data_.compliance_shear = c.shear;
-    data_.keep_strain = 1.0 - input.deformation.relaxation;
-    data_.new_strain = input.deformation.relaxation;
-  }
-  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_}, isa);
-  load(input.initial);
-  start_leapfrog();
-  begin_stage(0);
+  data_.stiffness_ratio = input.contact.stiffness_ratio;
 }
 
-/// Implicit: source, iterations, motion. Lagged: further evaluations of the strains, motion.
-void Stepper::begin_stage(int stage) {
-  stage_ = stage;
-  if (stage == stages_ - 1) {
-    due_ = kernels_.step;
-  } else if (implicit_) {
-    due_ = stage == 0 ? kernels_.source : kernels_.iterate;
-    data_.first_weight = chebyshev_[stage].first;
-    data_.change_weight = chebyshev_[stage].change;
-    data_.residual_weight = chebyshev_[stage].residual;
-  } else {
-    due_ = kernels_.evaluate;
+void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
+  const DeformationParameters& deformation = input.deformation;
+  const std::vector<double> volume = particle_volumes(a, deformation);
+  AlignedVector<double> ordered(padded_, 0.0);
+  for (std::size_t d = 0; d < discs_; ++d) {
+    ordered[position_[d]] = volume[d];
+    inverse_volume_[position_[d]] = 1.0 / volume[d];
   }
+  const Compliance c = disc_compliance(deformation);
+  data_.compliance_direct = c.direct;
+  data_.compliance_coupling = c.coupling;
+  data_.compliance_shear = c.shear;
+  data_.keep_strain = 1.0 - deformation.relaxation;
+  data_.new_strain = deformation.relaxation;
+  if (!implicit_) {
+    strain_stages_ = deformation.evaluations - 1;
+  } else if (deformation.solver == StrainSolver::conjugate_gradients) {
+    gradients_.emplace(std::move(ordered), c, deformation.tolerance);
+  } else {
+    // Lanczos finds the radius to 1e-5 or better; beyond the interval the iteration would grow.
+    const double radius = fixed_point_radius(a, input.contact, deformation);
+    relaxations_ = strain_relaxations(radius * (1.0 + 1e-3), deformation.tolerance);
+    strain_stages_ = static_cast<int>(relaxations_.size());
+  }
+}
+
+/// The strains first, then the motion. Lagged: further evaluations; implicit: source and iterations, or conjugate
+/// gradients.
+void Stepper::begin_step() {
+  stages_done_ = 0;
+  if (gradients_) {
+    begin_stage(Stage::residual);
+  } else if (strain_stages_ == 0) {
+    begin_stage(Stage::motion);
+  } else {
+    begin_stage(implicit_ ? Stage::source : Stage::evaluate);
+  }
+}
+
+void Stepper::begin_stage(Stage stage) {
+  stage_ = stage;
+  if (stage == Stage::source || stage == Stage::iterate) data_.relaxation = relaxations_[stages_done_];
+  switch (stage) {
+    case Stage::evaluate: due_ = kernels_.evaluate; break;
+    case Stage::source: due_ = kernels_.source; break;
+    case Stage::iterate: due_ = kernels_.iterate; break;
+    case Stage::residual: due_ = kernels_.residual; break;
+    case Stage::apply: due_ = kernels_.apply; break;
+    case Stage::advance: due_ = kernels_.advance; break;
+    case Stage::turn: due_ = kernels_.turn; break;
+    case Stage::motion: due_ = kernels_.step; break;
+  }
+}
+
+void Stepper::finish_strain_stage() {
+  ++stages_done_;
+  if (!gradients_) {
+    swap_strains();
+    begin_stage(stages_done_ == strain_stages_ ? Stage::motion : implicit_ ? Stage::iterate : Stage::evaluate);
+    return;
+  }
+  if (stage_ == Stage::advance) swap_strains();
+  begin_stage(gradients_->next(stage_, data_));
+}
+
+std::optional<Breakdown> Stepper::breakdown() const {
+  if (!gradients_ || !gradients_->breakdown()) return std::nullopt;
+  const StrainBreakdown& b = *gradients_->breakdown();
+  const auto disc = std::find(position_.begin(), position_.end(), b.place);
+  return Breakdown{b.cause == StrainBreakdown::Cause::indefinite ? Breakdown::Cause::strains_indefinite : Breakdown::Cause::strains_not_converged,
+                   step_number_, disc == position_.end() ? 0 : static_cast<int>(disc - position_.begin())};
 }
 
 void Stepper::load(const InitialState& s) {
-  const auto copy = [&](const std::vector<double>& from, AlignedVector<double>& to) {
+  const auto copy = [&](const std::vector<double>& from, AlignedVector<double>& to, int stride, int offset) {
     if (to.empty()) return;
-    for (std::size_t d = 0; d < from.size(); ++d) to[position_[d]] = from[d];
+    for (std::size_t d = 0; d < from.size(); ++d) to[static_cast<std::size_t>(stride * position_[d] + offset)] = from[d];
   };
-  copy(s.ux, ux_), copy(s.uy, uy_), copy(s.theta, theta_);
-  copy(s.vx, vx_), copy(s.vy, vy_), copy(s.omega, omega_);
-  if (drive_) impose(0.0, ux_, uy_);
+  copy(s.ux, motion_, kQuad, 0), copy(s.uy, motion_, kQuad, 1);
+  if (rotation_) copy(s.theta, motion_, kQuad, 2);
+  copy(s.vx, vx_, 1, 0), copy(s.vy, vy_, 1, 0), copy(s.omega, omega_, 1, 0);
+  if (drive_) impose(0.0, motion_);
   bind();
 }
 
@@ -115,10 +171,9 @@ void Stepper::load(const InitialState& s) {
 void Stepper::start_leapfrog() {
   AlignedVector<double> vx(padded_, 0.0), vy(padded_, 0.0), omega(omega_.size(), 0.0);
   if (implicit_) {
-    for (int stage = 0; stage < stages_ - 1; ++stage) {
-      begin_stage(stage);
+    for (begin_step(); stage_ != Stage::motion;) {
       advance(0, bonds_.slices);
-      swap_strains();
+      finish_strain_stage();
     }
   }
   StepData d = data_;
@@ -131,38 +186,30 @@ void Stepper::start_leapfrog() {
   }
 }
 
-void Stepper::impose(double time, AlignedVector<double>& ux, AlignedVector<double>& uy) const {
-  AlignedVector<double>& u = drive_->direction == Direction::x ? ux : uy;
+void Stepper::impose(double time, AlignedVector<double>& motion) const {
+  const int component = drive_->direction == Direction::x ? 0 : 1;
   const double value = drive_->displacement(time);
-  for (const int d : drive_->discs) u[position_[d]] = value;
+  for (const int d : drive_->discs) motion[static_cast<std::size_t>(kQuad * position_[d] + component)] = value;
 }
 
 bool Stepper::finish_stage() {
-  const bool last = stage_ == stages_ - 1;
-  if (last) {
-    ++step_number_;
-    if (drive_) impose(static_cast<double>(step_number_) * data_.dt, ux_next_, uy_next_);
-    std::swap(ux_, ux_next_);
-    std::swap(uy_, uy_next_);
-    std::swap(theta_, theta_next_);
+  if (stage_ != Stage::motion) {
+    finish_strain_stage();
+    return false;
   }
-  // The motion of an implicit step leaves the strains as they are; every other stage has written new ones.
-  if (!(last && implicit_)) swap_strains();
+  ++step_number_;
+  if (drive_) impose(static_cast<double>(step_number_) * data_.dt, motion_next_);
+  std::swap(motion_, motion_next_);
+  // The motion of a lagged step has written the strains to come.
+  if (!implicit_) swap_strains();
   bind();
-  begin_stage(last ? 0 : stage_ + 1);
-  return last;
+  begin_step();
+  return true;
 }
 
 void Stepper::swap_strains() {
-  std::swap(exx_, exx_next_);
-  std::swap(eyy_, eyy_next_);
-  std::swap(exy_, exy_next_);
+  std::swap(strain_, strain_next_);
   bind();
-}
-
-StrainView Stepper::strains_in_use() const {
-  if (implicit_) return {exx_.data(), eyy_.data(), exy_.data()};
-  return {exx_next_.data(), eyy_next_.data(), exy_next_.data()};
 }
 
 void Stepper::bind() {
@@ -170,37 +217,36 @@ void Stepper::bind() {
   d.row_begin = bonds_.row_begin.data(), d.neighbour = bonds_.neighbour.data();
   d.nx = bonds_.nx.data(), d.ny = bonds_.ny.data(), d.length = bonds_.length.data();
   d.arm_own = bonds_.arm_own.data(), d.arm_other = bonds_.arm_other.data();
-  d.ux = ux_.data(), d.uy = uy_.data(), d.theta = theta_.data();
-  d.ux_next = ux_next_.data(), d.uy_next = uy_next_.data(), d.theta_next = theta_next_.data();
+  d.bond_stiffness = bonds_.stiffness.data();
+  if (gradients_) gradients_->bind(d);
+  d.motion = motion_.data(), d.motion_next = motion_next_.data();
   d.vx = vx_.data(), d.vy = vy_.data(), d.omega = omega_.data();
   d.kick_x = kick_x_.data(), d.kick_y = kick_y_.data(), d.kick_theta = kick_theta_.data();
-  d.exx = exx_.data(), d.eyy = eyy_.data(), d.exy = exy_.data();
-  d.exx_next = exx_next_.data(), d.eyy_next = eyy_next_.data(), d.exy_next = exy_next_.data();
+  d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
   d.inverse_volume = inverse_volume_.data();
-  d.source_xx = source_xx_.data(), d.source_yy = source_yy_.data(), d.source_xy = source_xy_.data();
-  d.change_xx = change_xx_.data(), d.change_yy = change_yy_.data(), d.change_xy = change_xy_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();
   d.previous_rotation = previous_rotation_.data(), d.slip = slip_.data();
 }
 
 int Stepper::diverged_disc(double bound) const {
+  const MotionView u{motion_.data()};
   for (std::size_t d = 0; d < discs_; ++d) {
     const int p = position_[d];
-    if (!(std::abs(ux_[p]) <= bound && std::abs(uy_[p]) <= bound)) return static_cast<int>(d);
+    if (!(std::abs(u.ux(p)) <= bound && std::abs(u.uy(p)) <= bound)) return static_cast<int>(d);
   }
   return -1;
 }
 
-InitialState Stepper::state() const {
-  InitialState s;
-  const auto copy = [&](const AlignedVector<double>& from, std::vector<double>& to) {
-    to.assign(discs_, 0.0);
-    if (from.empty()) return;
-    for (std::size_t d = 0; d < discs_; ++d) to[d] = from[position_[d]];
-  };
-  copy(ux_, s.ux), copy(uy_, s.uy), copy(theta_, s.theta);
-  copy(vx_, s.vx), copy(vy_, s.vy), copy(omega_, s.omega);
-  return s;
+std::vector<double> Stepper::in_order(const double* values, int stride) const {
+  std::vector<double> ordered(discs_, 0.0);
+  if (values == nullptr) return ordered;
+  for (std::size_t d = 0; d < discs_; ++d) ordered[d] = values[stride * position_[d]];
+  return ordered;
+}
+
+InitialState Stepper::state_of(const double* motion) const {
+  return {in_order(motion, kQuad),  in_order(motion + 1, kQuad), in_order(motion + 2, kQuad),
+          in_order(vx_.data()),     in_order(vy_.data()),        in_order(omega_.data())};
 }
 
 }  // namespace ddem

@@ -7,9 +7,11 @@
 #include "dem/kernel/aligned.h"
 #include "dem/kernel/sliced_bonds.h"
 #include "dem/kernel/step_data.h"
-#include "dem/simulation/chebyshev.h"
-#include "dem/simulation/energy.h"
+#include "dem/simulation/audit.h"
+#include "dem/simulation/conjugate_gradients.h"
 #include "dem/simulation/simulation.h"
+#include "dem/simulation/stage.h"
+#include "dem/simulation/strain_polynomial.h"
 
 namespace ddem {
 
@@ -30,35 +32,47 @@ class Stepper {
 
   const StepData& data() const { return data_; }
   /// The strains that corrected the overlaps of the last step.
-  StrainView strains_in_use() const;
+  StrainView strains_in_use() const { return {implicit_ ? strain_.data() : strain_next_.data()}; }
+  VelocityView velocities() const { return {data_.vx, data_.vy, data_.omega, data_.kick_x, data_.kick_y, data_.kick_theta}; }
+  /// Set once the strains of a step could not be found; the motion must not go on.
+  std::optional<Breakdown> breakdown() const;
   /// Finds a disc whose displacement is not finite or beyond `bound` (m); -1 if there is none.
   int diverged_disc(double bound) const;
-  InitialState state() const;
+  InitialState state() const { return state_of(motion_.data()); }
+  /// The displacements of an array of motions, and the velocities.
+  InitialState state_of(const double* motion) const;
+  /// values[stride p], one value a disc in the order of the assembly; zero for a null pointer.
+  std::vector<double> in_order(const double* values, int stride = 1) const;
 
  private:
+  void size_arrays(const SimulationInput& input);
+  void set_parameters(const Assembly& assembly, const SimulationInput& input);
+  void prepare_strains(const Assembly& assembly, const SimulationInput& input);
   void load(const InitialState& initial);
   void start_leapfrog();
-  void impose(double time, AlignedVector<double>& ux, AlignedVector<double>& uy) const;
+  void impose(double time, AlignedVector<double>& motion) const;
   void bind();
   void swap_strains();
-  void begin_stage(int stage);
+  void begin_step();
+  void begin_stage(Stage stage);
+  void finish_strain_stage();
 
   SlicedBonds bonds_;
   std::vector<int> position_;
   std::size_t discs_ = 0, padded_ = 0;
   bool rotation_ = false, deformable_ = false;
   std::optional<EdgeDrive> drive_;
-  AlignedVector<double> ux_, uy_, theta_, ux_next_, uy_next_, theta_next_;
-  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_;
-  AlignedVector<double> exx_, eyy_, exy_, exx_next_, eyy_next_, exy_next_, inverse_volume_;
+  AlignedVector<double> motion_, motion_next_, strain_, strain_next_, source_;  // kQuad a disc
+  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_, inverse_volume_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
-  AlignedVector<double> source_xx_, source_yy_, source_xy_, change_xx_, change_yy_, change_xy_;
   StepData data_{};
   StepKernels kernels_;
   SliceFunction due_ = nullptr;
   bool implicit_ = false;
-  int stages_ = 1, stage_ = 0;
-  std::vector<ChebyshevWeights> chebyshev_;
+  Stage stage_ = Stage::motion;
+  int strain_stages_ = 0, stages_done_ = 0;  // before the motion; of the step under way
+  std::vector<double> relaxations_;
+  std::optional<ConjugateGradients> gradients_;
   long step_number_ = 0;
 };
 

@@ -13,16 +13,6 @@ namespace {
 
 constexpr std::array<MacroStrain, 3> kUnitStrains = {MacroStrain{1, 0, 0}, MacroStrain{0, 1, 0}, MacroStrain{0, 0, 1}};
 
-struct Force {
-  double x = 0.0, y = 0.0;
-};
-
-Force bond_force(const Bonds& b, const Operators& op, const StaticState& state, std::size_t c) {
-  const double fn = state.bond_forces[op.rows_per_bond * c];
-  const double ft = op.rows_per_bond == 2 ? state.bond_forces[2 * c + 1] : 0.0;
-  return {fn * b.nx[c] - ft * b.ny[c], fn * b.ny[c] + ft * b.nx[c]};
-}
-
 /// Interval [from, to] of x between two inner sections.
 struct Section {
   double from, to;
@@ -57,8 +47,8 @@ Eigen::Vector3d mean_stress(const Assembly& a, const Operators& op, const Static
   for (std::size_t c = 0; c < a.bonds.size(); ++c) {
     const double lx = a.bonds.length[c] * a.bonds.nx[c], ly = a.bonds.length[c] * a.bonds.ny[c];
     const double x0 = a.packing.x[a.bonds.i[c]];
-    const Force f = bond_force(a.bonds, op, state, c);
-    stress += weight.mean(x0, x0 + lx) * Eigen::Vector3d(lx * f.x, ly * f.y, lx * f.y);
+    const Eigen::Vector2d f = bond_force(a.bonds, op, state, c);
+    stress += weight.mean(x0, x0 + lx) * Eigen::Vector3d(lx * f.x(), ly * f.y(), lx * f.y());
   }
   return stress / (weight.length() * a.packing.width * a.thickness);
 }
@@ -153,9 +143,9 @@ PlaneStiffness homogenise_cell(const Assembly& a, const ContactParameters& conta
     const StaticState state = solver.solve(kUnitStrains[k]);
     Eigen::Vector3d stress = Eigen::Vector3d::Zero();
     for (std::size_t b = 0; b < a.bonds.size(); ++b) {
-      const Force f = bond_force(a.bonds, solver.operators(), state, b);
+      const Eigen::Vector2d f = bond_force(a.bonds, solver.operators(), state, b);
       const double lx = a.bonds.length[b] * a.bonds.nx[b], ly = a.bonds.length[b] * a.bonds.ny[b];
-      stress += Eigen::Vector3d(lx * f.x, ly * f.y, 0.5 * (lx * f.y + ly * f.x));
+      stress += Eigen::Vector3d(lx * f.x(), ly * f.y(), 0.5 * (lx * f.y() + ly * f.x()));
     }
     c.col(k) = stress / (a.packing.period.x * a.packing.period.y * a.thickness);
   }

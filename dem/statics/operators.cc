@@ -2,6 +2,9 @@
 
 #include <vector>
 
+#include "dem/assembly/bond_stiffness.h"
+#include "dem/assembly/particle_volume.h"
+
 namespace ddem {
 namespace {
 
@@ -54,10 +57,11 @@ void add_deformation(Operators& op, const Assembly& a, const DeformationParamete
     }
   }
   const Compliance d = disc_compliance(deformation);
+  const std::vector<double> volume = particle_volumes(a, deformation);
   const double det = d.direct * d.direct - d.coupling * d.coupling;
   for (int p = 0; p < static_cast<int>(a.size()); ++p) {
     // Work conjugate of (eps_xx, eps_yy, eps_xy) is (s_xx, s_yy, 2 s_xy); strains carry the length scale.
-    const double v = a.volume[p] / (op.length_scale * op.length_scale);
+    const double v = volume[p] / (op.length_scale * op.length_scale);
     vc.insert(vc.end(), {{3 * p, 3 * p, v * d.direct / det},
                          {3 * p, 3 * p + 1, -v * d.coupling / det},
                          {3 * p + 1, 3 * p, -v * d.coupling / det},
@@ -87,8 +91,9 @@ Operators make_operators(const Assembly& a, const ContactParameters& contact,
   for (int c = 0; c < bonds; ++c) add_overlap_rows(t, a.bonds, c, op);
   op.overlap = sparse(op.rows_per_bond * bonds, op.dofs_per_disc * static_cast<Eigen::Index>(a.size()), t);
   op.stiffness.resize(op.overlap.rows());
+  const std::vector<double> k_n = normal_stiffnesses(a, contact);
   for (Eigen::Index r = 0; r < op.stiffness.size(); ++r) {
-    op.stiffness[r] = r % op.rows_per_bond == 0 ? contact.normal_stiffness : contact.shear_stiffness();
+    op.stiffness[r] = k_n[r / op.rows_per_bond] * (r % op.rows_per_bond == 0 ? 1.0 : contact.stiffness_ratio);
   }
   op.inverse_mass.resize(op.overlap.cols());
   for (int p = 0; p < static_cast<int>(a.size()); ++p) {

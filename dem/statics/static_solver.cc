@@ -39,6 +39,9 @@ struct StaticSolver::Impl {
     return lu.solve(b);
   }
 
+  /// Fluctuation, strains and forces that balance these overlaps of the affine or imposed motion.
+  StaticState balance(const Eigen::VectorXd& affine) const;
+
   void number_unknowns(const HeldDofs& held) {
     reduced.assign(static_cast<std::size_t>(op.overlap.cols()), -1);
     const auto is_held = [](const std::vector<std::uint8_t>& h, std::size_t p) { return !h.empty() && h[p]; };
@@ -98,11 +101,17 @@ struct StaticSolver::Impl {
   }
 };
 
+Eigen::Vector2d bond_force(const Bonds& b, const Operators& op, const StaticState& state, std::size_t c) {
+  const double fn = state.bond_forces[op.rows_per_bond * c];
+  const double ft = op.rows_per_bond == 2 ? state.bond_forces[2 * c + 1] : 0.0;
+  return {fn * b.nx[c] - ft * b.ny[c], fn * b.ny[c] + ft * b.nx[c]};
+}
+
 StaticSolver::StaticSolver(const Assembly& assembly, const ContactParameters& contact,
                            const DeformationParameters& deformation, const HeldDofs& held)
     : impl_(std::make_unique<Impl>(assembly)) {
   impl_->op = make_operators(assembly, contact, deformation);
-  impl_->scale = contact.normal_stiffness;
+  impl_->scale = impl_->op.stiffness.maxCoeff();
   impl_->number_unknowns(held);
   impl_->build_matrix();
   impl_->factorise();
@@ -114,9 +123,17 @@ StaticSolver::StaticSolver(StaticSolver&&) noexcept = default;
 const Operators& StaticSolver::operators() const { return impl_->op; }
 
 StaticState StaticSolver::solve(const MacroStrain& strain) const {
-  const Impl& m = *impl_;
-  const Operators& op = m.op;
-  const Eigen::VectorXd affine = affine_overlaps(m.assembly, op, strain);
+  return impl_->balance(affine_overlaps(impl_->assembly, impl_->op, strain));
+}
+
+StaticState StaticSolver::solve_moved(const Eigen::VectorXd& displacement) const {
+  StaticState state = impl_->balance(impl_->op.overlap * displacement);
+  state.fluctuation += displacement;
+  return state;
+}
+
+StaticState StaticSolver::Impl::balance(const Eigen::VectorXd& affine) const {
+  const Impl& m = *this;
   const Eigen::VectorXd affine_force = op.stiffness.cwiseProduct(affine);
 
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(m.matrix.rows());

@@ -14,12 +14,16 @@ struct HeldDofs {
   std::vector<std::uint8_t> x, y, theta;
 };
 
-/// Equilibrium: displacement E . x + fluctuation, and the forces of the bonds.
+/// Equilibrium: displacement E . x + fluctuation (without a macroscopic strain the displacement itself), and the forces of
+/// the bonds.
 struct StaticState {
   Eigen::VectorXd fluctuation;   ///< q as in Operators
   Eigen::VectorXd strain;        ///< particle strains as in Operators (times the length scale)
   Eigen::VectorXd bond_forces;   ///< rows as in Operators::overlap, N
 };
+
+/// Force (x, y) of bond c on its disc i, N.
+Eigen::Vector2d bond_force(const Bonds& bonds, const Operators& operators, const StaticState& state, std::size_t c);
 
 /// Factorises once, solves for any number of strains. The system in (q, eps) is
 ///   [ C^T K C    -C^T K G      ] [q  ]     [ C^T K e_E ]
@@ -37,6 +41,8 @@ class StaticSolver {
 
   /// Throws std::runtime_error if the residual does not fall below 1e-12 of the load.
   StaticState solve(const MacroStrain& strain) const;
+  /// The same for held degrees of freedom that are moved: their entries of `displacement` (q as in Operators, the others 0).
+  StaticState solve_moved(const Eigen::VectorXd& displacement) const;
   const Operators& operators() const;
 
  private:

@@ -110,10 +110,10 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     out.critical_time_step = run.critical_time_step;
     out.steps = run.result.steps_done;
     out.energy_drift = run.result.energy_drift;
-    if (run.result.divergence) {
+    if (run.result.breakdown) {
       out.diverged = true;
-      out.diverged_step = run.result.divergence->step;
-      out.diverged_disc = run.result.divergence->disc;
+      out.diverged_step = run.result.breakdown->step;
+      out.diverged_disc = run.result.breakdown->disc;
       out.failure = fmt::format("diverged at step {}, disc {}", out.diverged_step, out.diverged_disc);
       return out;
     }
@@ -169,7 +169,7 @@ StabilityOutcome release_noise(const StripCampaign& s, const StripMaterial& key,
     in.time_step = kNoiseStepFraction * 2.0 / largest_frequency(assembly, in.contact, {});
     in.steps = out.steps;
     const SimulationResult result = simulate(assembly, in);
-    if (result.divergence) out.diverged_step = result.divergence->step;
+    if (result.breakdown) out.diverged_step = result.breakdown->step;
   } catch (const std::exception& e) {
     out.failure = e.what();
   }

@@ -17,7 +17,7 @@ void add_probe(SignalTable& table, const std::string& name, const std::vector<do
   if (theta != nullptr) add("_theta", *theta);
 }
 
-void write_signals_hdf5(const std::string& path, const SignalTable& table, const Scene& scene) {
+void write_signals_hdf5(const std::string& path, const SignalTable& table, const Scene& scene, const MoreGroups& more) {
   AtomicFile atomic(path);
   Hdf5File file = Hdf5File::create(atomic.temporary_path());
   {
@@ -30,14 +30,16 @@ void write_signals_hdf5(const std::string& path, const SignalTable& table, const
     for (std::size_t c = 0; c < table.names.size(); ++c) {
       signals.write(table.names[c], table.channels[c]).set_attribute("unit", table.names[c].ends_with("_theta") ? "rad" : "m");
     }
+    more(root);
   }
   file.close();
   atomic.commit();
 }
 
-void write_outputs(const std::string& hdf5_path, const std::string& csv_path, const SignalTable& table, const Scene& scene) {
+void write_outputs(const std::string& hdf5_path, const std::string& csv_path, const SignalTable& table, const Scene& scene,
+                   const MoreGroups& more) {
   if (!csv_path.empty()) write_signals_csv(csv_path, table);
-  if (!hdf5_path.empty()) write_signals_hdf5(hdf5_path, table, scene);
+  if (!hdf5_path.empty()) write_signals_hdf5(hdf5_path, table, scene, more);
 }
 
 }  // namespace ddem::harness

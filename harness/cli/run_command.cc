@@ -5,6 +5,7 @@
 
 #include "harness/cli/commands.h"
 #include "harness/cli/output.h"
+#include "harness/cli/run_hdf5.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/io/errors.h"
 #include "harness/io/progress.h"
@@ -15,10 +16,12 @@ namespace {
 
 struct Options {
   std::string scene, hdf5, csv;
+  int snapshots = 1;
   bool json = false;
 };
 
 constexpr std::size_t kProgressUnits = 200;
+constexpr int kEnergySamples = 200;
 
 void print_summary(const DemRun& run) {
   const SimulationResult& r = run.result;
@@ -55,20 +58,24 @@ int run(const Options& o) {
     if (units > shown) progress.advance(units - std::exchange(shown, units));
     return true;
   };
+  if (!o.hdf5.empty()) {
+    options.snapshots = o.snapshots;
+    options.energy_samples = kEnergySamples;
+  }
   const DemRun run = run_scene(scene, options);
   for (const std::string& warning : run.warnings) fmt::print(stderr, "ddem: warning: {}\n", warning);
   if (o.json) fmt::print("{}", to_text(run_json(run)));
-  if (run.result.divergence) {
-    throw SolverError(fmt::format("{}: the run diverged at step {} (t = {:.4g} s), disc {}; {}",
-                                  o.scene, run.result.divergence->step, static_cast<double>(run.result.divergence->step) * run.time_step,
-                                  run.result.divergence->disc,
-                                  scene.deformation ? "lower the time step, stiffen the discs, or use scheme = \"implicit\"" : "lower the time step"));
+  if (run.result.breakdown) {
+    const Breakdown& b = *run.result.breakdown;
+    const BreakdownText text = describe(b, scene);
+    throw SolverError(fmt::format("{}: {} at step {} (t = {:.4g} s), disc {}; {}", o.scene, text.what, b.step,
+                                  static_cast<double>(b.step) * run.time_step, b.disc, text.advice));
   }
   SignalTable table;
   const Signals& s = run.result.signals;
   table.time = s.time;
   for (std::size_t p = 0; p < run.layout.probes.size(); ++p) add_probe(table, run.layout.probes[p].name, s.ux[p], s.uy[p], &s.theta[p]);
-  write_outputs(o.hdf5, o.csv, table, scene);
+  write_outputs(o.hdf5, o.csv, table, scene, [&](Hdf5Group& root) { write_energy_and_fields(root, run); });
   if (!o.json) print_summary(run);
   return static_cast<int>(ExitCode::done);
 }
@@ -80,7 +87,10 @@ void add_run_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "One DEM or DDEM simulation of a scene");
   command->footer("Example: ddem run bar.toml --signals bar.csv\nScenes to start from: harness/scenes/*.toml");
   command->add_option("SCENE", o->scene, "scene file (TOML)")->required();
-  command->add_option("-o,--output", o->hdf5, "write signals, scene and provenance to this HDF5 file");
+  command->add_option("-o,--output", o->hdf5, "write signals, energies, fields, scene and provenance to this HDF5 file");
+  command->add_option("--snapshots", o->snapshots, "fields of all discs at so many times, the last at the end")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
   command->add_option("--signals", o->csv, "write the probes' signals to this CSV file");
   command->add_flag("--json", o->json, "print the result as JSON");
   command->callback([o, &action] { action = [o] { return run(*o); }; });

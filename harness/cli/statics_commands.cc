@@ -2,16 +2,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <span>
 
-#include "dem/assembly/contacts.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
+#include "harness/model/packing_report.h"
 #include "harness/run/run_json.h"
 #include "harness/scene/csv.h"
 
@@ -49,17 +48,17 @@ int moduli(const ModuliOptions& o) {
 
 struct PackOptions {
   std::string scene, output;
+  bool json = false;
 };
 
 int pack(const PackOptions& o) {
   const Scene scene = load_scene(o.scene, Purpose::packing);
   check_outputs({o.output}, scene);
   const Packing p = build_packing(scene);
+  const PackingReport report = report_on_packing(scene, p);
   write_file(o.output, csv_text("x,y,radius", std::array<std::span<const double>, 3>{p.x, p.y, p.radius}));
-  double area = 0.0;
-  for (const double r : p.radius) area += M_PI * r * r;
-  fmt::print(stderr, "{} discs in {:.6g} m x {:.6g} m, porosity {:.4f}, mean radius {:.6g} m\n", p.size(), p.length, p.width,
-             1.0 - area / (p.length * p.width), mean_radius(p));
+  fmt::print(stderr, "{}", packing_text(report));
+  if (o.json) fmt::print("{}", to_text(packing_json(report)));
   return 0;
 }
 
@@ -81,6 +80,7 @@ void add_pack_command(CLI::App& app, Action& action) {
   command->footer("Example: ddem pack bar.toml -o discs.csv");
   command->add_option("SCENE", o->scene, "scene file (TOML); [assembly] alone is enough")->required();
   command->add_option("-o,--output", o->output, "CSV file to write")->required();
+  command->add_flag("--json", o->json, "print what the packing is like as JSON");
   command->callback([o, &action] { action = [o] { return pack(*o); }; });
 }
 

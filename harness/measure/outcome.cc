@@ -20,6 +20,8 @@ std::string_view name(Failure failure) {
       return "ambiguous";
     case Failure::not_causal:
       return "not_causal";
+    case Failure::narrow_band:
+      return "narrow_band";
     case Failure::too_few_picks:
       return "too_few_picks";
   }

@@ -17,6 +17,7 @@ enum class Failure {
   below_noise,    ///< not high enough above the noise, or below the amplitude expected
   ambiguous,      ///< a second, separate peak is as high
   not_causal,     ///< the delay between two picks is not positive
+  narrow_band,    ///< too few frequencies at which both signals carry energy
   too_few_picks,  ///< fewer successful pairs than a mean needs
 };
 

@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <stdexcept>
 #include <cmath>
-#include <future>
-#include <map>
-#include <mutex>
 #include <string>
 #include <string_view>
-#include <tuple>
+#include <vector>
 
 #include "dem/assembly/contacts.h"
 #include "dem/assembly/packing_check.h"
 #include "harness/io/errors.h"
+#include "harness/model/random_packing.h"
 #include "harness/scene/csv.h"
 #include "harness/scene/place.h"
 #include "meshes/packings/hexagonal.h"
-#include "meshes/packings/random.h"
 
 namespace ddem::harness {
 namespace {
@@ -44,36 +41,6 @@ auto naming_scene(const Scene& scene, std::string_view key, F&& f) {
   } catch (const std::invalid_argument& e) {
     throw InputError(scene_problem(scene, key, e.what(), ""));
   }
-}
-
-/// Jamming takes a thousand times as long as a wave run of the packing, and a campaign runs many waves in one packing:
-/// each is made once in a process. Threads that ask for the same packing wait for the one that makes it.
-Packing random_packing(const RandomPacking& p) {
-  using Key = std::tuple<double, double, std::int64_t, std::int64_t, double>;
-  static std::mutex mutex;
-  static std::map<Key, std::shared_future<Packing>> made;
-  std::promise<Packing> promise;
-  std::shared_future<Packing> packing;
-  bool make = false;
-  {
-    const std::lock_guard lock(mutex);
-    auto [entry, absent] = made.try_emplace(Key{p.length, p.width, p.discs, p.seed, p.radius_ratio});
-    make = absent;
-    if (absent) entry->second = promise.get_future().share();
-    packing = entry->second;
-  }
-  if (make) {
-    try {
-      promise.set_value(packings::random_jammed({.length = p.length,
-                                                 .width = p.width,
-                                                 .discs = static_cast<int>(p.discs),
-                                                 .seed = static_cast<std::uint64_t>(p.seed),
-                                                 .radius_ratio = p.radius_ratio}));
-    } catch (...) {
-      promise.set_exception(std::current_exception());
-    }
-  }
-  return packing.get();
 }
 
 Packing hexagonal_packing(const HexagonalPacking& p, Periodicity periodic) {
@@ -132,35 +99,52 @@ Packing file_packing(const Scene& scene, const FilePacking& p) {
 
 Packing packing_with(const Scene& scene, Periodicity periodic) {
   return naming_scene(scene, "assembly.packing", [&] {
-    return std::visit(Overload{[](const RandomPacking& p) { return random_packing(p); },
+    return std::visit(Overload{[&](const RandomPacking& p) { return random_packing(p, periodic); },
                                [&](const HexagonalPacking& p) { return hexagonal_packing(p, periodic); },
                                [&](const FilePacking& p) { return file_packing(scene, p); }},
                       scene.assembly.packing);
   });
 }
 
-Bonds bonds_for(const Scene& scene, const Packing& packing) {
-  return std::visit(
-      Overload{[&](const BondGap& g) { return bonds_within_gap(packing, g.mean_radii * mean_radius(packing)); },
-               [&](const BondCoordination& c) {
-                 return bonds_within_gap(packing, gap_for_coordination(packing, c.bonds_per_disc));
-               },
-               [&](const BondFile& f) {
-                 const auto table = read_bond_table(f.path);
-                 if (!table) {
-                   std::vector<std::string> lines;
-                   for (const Violation& v : table.violations) lines.push_back(to_string(v));
-                   throw InputError(lines);
-                 }
-                 return bonds_between(packing, *table);
-               }},
-      scene.assembly.bonding);
+Bonds bonds_of_file(const Packing& packing, const BondFile& file) {
+  const auto table = read_bond_table(file.path);
+  if (!table) {
+    std::vector<std::string> lines;
+    for (const Violation& v : table.violations) lines.push_back(to_string(v));
+    throw InputError(lines);
+  }
+  return bonds_between(packing, *table);
+}
+
+/// The gap for a coordination of the material: discs at flat walls are not counted. Throws where discs that touch would
+/// have to stay without a bond.
+double gap_for(const Packing& packing, const std::vector<char>& counted, bool random, double coordination) {
+  const double gap = gap_for_coordination(packing, coordination, counted);
+  if (random && gap < 0.0)
+    throw std::invalid_argument("the discs that touch make for a coordination of " +
+                                std::to_string(ddem::coordination(bonds_within_gap(packing, 0.0), counted)) +
+                                " already; ask for more, or take a larger radius_ratio (equal discs crystallise)");
+  return gap;
+}
+
+Bonding bonding_with(const Scene& scene, const Packing& packing, Periodicity periodic) {
+  const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
+  const std::vector<char> counted =
+      packings::inner_discs(packing, random != nullptr ? walls_of(*random, periodic) : packings::FlatWalls{});
+  Bonding b;
+  if (const auto* g = std::get_if<BondGap>(&scene.assembly.bonding)) b.gap = g->mean_radii * mean_radius(packing);
+  if (const auto* c = std::get_if<BondCoordination>(&scene.assembly.bonding))
+    b.gap = gap_for(packing, counted, random != nullptr, c->bonds_per_disc);
+  b.bonds = b.gap ? bonds_within_gap(packing, *b.gap)
+                  : bonds_of_file(packing, std::get<BondFile>(scene.assembly.bonding));
+  b.coordination = coordination(b.bonds, counted);
+  return b;
 }
 
 ddem::Assembly assembly_with(const Scene& scene, Periodicity periodic) {
   Packing packing = packing_with(scene, periodic);
   return naming_scene(scene, bonding_key(scene), [&] {
-    const Bonds bonds = cut_at_edges(packing, bonds_for(scene, packing), !periodic.x, !periodic.y);
+    const Bonds bonds = cut_at_edges(packing, bonding_with(scene, packing, periodic).bonds, !periodic.x, !periodic.y);
     if (!periodic.x) packing.period.x = 0.0;
     if (!periodic.y) packing.period.y = 0.0;
     const bool by_chance = std::holds_alternative<RandomPacking>(scene.assembly.packing);
@@ -172,6 +156,10 @@ ddem::Assembly assembly_with(const Scene& scene, Periodicity periodic) {
 }  // namespace
 
 Packing build_packing(const Scene& scene) { return packing_with(scene, scene.assembly.periodic); }
+
+Bonding bonding_of(const Scene& scene, const Packing& packing) {
+  return naming_scene(scene, bonding_key(scene), [&] { return bonding_with(scene, packing, scene.assembly.periodic); });
+}
 
 ddem::Assembly build_assembly(const Scene& scene) { return assembly_with(scene, scene.assembly.periodic); }
 
@@ -200,8 +188,15 @@ std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene) {
 
 ContactParameters contact_parameters(const Scene& scene) {
   const Contact& c = scene.contact.value();
-  return {std::get<NormalStiffness>(c.stiffness).k_n, c.stiffness_ratio,
-          c.kinematics == Kinematics::linear ? ddem::Kinematics::linear : ddem::Kinematics::nonlinear};
+  ContactParameters p;
+  p.stiffness_ratio = c.stiffness_ratio;
+  p.kinematics = c.kinematics == Kinematics::linear ? ddem::Kinematics::linear : ddem::Kinematics::nonlinear;
+  if (const auto* modulus = std::get_if<ContactModulus>(&c.stiffness)) {
+    p.contact_modulus = modulus->pascal;
+  } else {
+    p.normal_stiffness = std::get<NormalStiffness>(c.stiffness).k_n;
+  }
+  return p;
 }
 
 DeformationParameters deformation_parameters(const Scene& scene) {
@@ -212,6 +207,8 @@ DeformationParameters deformation_parameters(const Scene& scene) {
   p.evaluations = static_cast<int>(d.evaluations);
   p.relaxation = d.relaxation;
   p.tolerance = d.tolerance;
+  p.solver = d.solver == StrainSolver::polynomial ? ddem::StrainSolver::polynomial : ddem::StrainSolver::conjugate_gradients;
+  p.volume = d.volume == ParticleVolume::disc ? ddem::ParticleVolume::disc : ddem::ParticleVolume::cell;
   p.correction = d.correction == Correction::normal ? ddem::Correction::normal
                  : d.correction == Correction::full ? ddem::Correction::full
                                                     : ddem::Correction::normal_only_stress;

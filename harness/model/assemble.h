@@ -9,9 +9,19 @@
 
 namespace ddem::harness {
 
-/// The packing of the scene; a random one is periodic in x and y whatever the scene's edges are.
-/// Throws InputError naming the scene's key.
+/// The packing of the scene; a random one is periodic in x and y whatever the scene's edges are, but for directions with
+/// flat walls. Throws InputError naming the scene's key.
 Packing build_packing(const Scene& scene);
+
+/// Bonds before edges are cut and rattlers leave.
+struct Bonding {
+  Bonds bonds;
+  std::optional<double> gap;  ///< m; none where a file names the bonds
+  double coordination = 0.0;  ///< of all discs, rattlers included; between flat walls of the inner_discs()
+};
+
+/// Throws InputError, among others where no gap gives the coordination: `packing` is build_packing(scene).
+Bonding bonding_of(const Scene& scene, const Packing& packing);
 
 /// Packing, bonds, masses. The bond gap or coordination is that of the whole packing; then the bonds that cross an
 /// edge which is not periodic are cut. Throws InputError.
@@ -19,7 +29,8 @@ ddem::Assembly build_assembly(const Scene& scene);
 
 /// The same material without free edges above and below: the random packing or a lattice closed in y. Empty for a
 /// packing from a file that does not close: without a width to serve as its period, with bonds of its own, or whose
-/// discs would overlap through the period. Its moduli are what a P or shear wave between periodic edges sees.
+/// discs would overlap through the period. Of a packing between four flat walls the counterpart is another packing of the
+/// same seed, radii distribution and coordination, with walls at its ends only. Its moduli are what a P or shear wave between periodic edges sees.
 std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene);
 
 ContactParameters contact_parameters(const Scene& scene);

@@ -117,6 +117,17 @@ double source_amplitude(const Scene& scene) {
   return 0.0;
 }
 
+double pulse_half_width(const Scene& scene, double speed) {
+  const auto* pulse = std::get_if<InitialPulse>(&scene.load);
+  if (pulse == nullptr) return 0.5 * source_duration(scene);
+  switch (pulse->shape) {
+    case PulseShape::column: return 0.0;
+    case PulseShape::cosine: return pulse->width / speed;
+    case PulseShape::gaussian: return 3.0 * pulse->width / speed;
+  }
+  return 0.0;
+}
+
 double smallest_arrival(const Scene& scene) {
   const auto* pulse = std::get_if<InitialPulse>(&scene.load);
   return pulse != nullptr && pulse->shape == PulseShape::column ? 0.01 : 0.05;

@@ -25,6 +25,9 @@ double source_duration(const Scene& scene);
 /// Where the source's maximum is at time 0, m from the left end (the centre of a gaussian; else 0).
 double source_centre(const Scene& scene);
 double source_amplitude(const Scene& scene);
+/// Half the time in which the pulse passes a place at that speed, s: half the drive's duration, or the profile's half
+/// width over the speed (three standard widths of a gaussian). 0 for a released column, which sends no pulse of its own width.
+double pulse_half_width(const Scene& scene, double speed);
 /// The part of the amplitude that must arrive for a peak to be believed. A released column is a few discs only, whose
 /// wave disperses as it travels: the cube root of the distance on the lattice, a twentieth of the amplitude over the
 /// strip on random packings without shear stiffness.

@@ -73,6 +73,7 @@ WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave,
   c.source_duration = source_duration(scene);
   c.source_amplitude = source_amplitude(scene);
   c.smallest_arrival = smallest_arrival(scene);
+  c.pulse_half_width = pulse_half_width(scene, c.speed);
   return c;
 }
 
@@ -105,6 +106,18 @@ void warn_of_instability(const Scene& scene, DemRun& run) {
 
 }  // namespace
 
+BreakdownText describe(const Breakdown& b, const Scene& scene) {
+  switch (b.cause) {
+    case Breakdown::Cause::diverged:
+      return {"the run diverged", scene.deformation ? "lower the time step, stiffen the discs, or use scheme = \"implicit\"" : "lower the time step"};
+    case Breakdown::Cause::strains_not_converged:
+      return {"the implicit strains did not converge", "raise deformation.tolerance, stiffen the discs (young_modulus), or use solver = \"polynomial\""};
+    case Breakdown::Cause::strains_indefinite:
+      return {"the system of the implicit strains is not positive definite", "lower the time step: the motion is not finite any more, or close to it"};
+  }
+  return {};
+}
+
 const std::vector<std::vector<double>>& wave_component(const Signals& s, Wave wave) {
   return wave == Wave::longitudinal ? s.ux : s.uy;
 }
@@ -124,6 +137,8 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   in.sample_every = static_cast<int>(scene.time.sample_every);
   in.threads = static_cast<int>(scene.run.threads);
   in.on_progress = options.on_progress;
+  in.energy_samples = options.energy_samples;
+  in.snapshots = options.snapshots;
   for (const Probe& p : run.layout.probes) in.receivers.push_back(p.receiver);
 
   run.critical_time_step = 2.0 / largest_frequency(run.assembly, in.contact, in.held);
@@ -134,7 +149,7 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   warn_of_instability(scene, run);
 
   run.result = simulate(run.assembly, in);
-  if (!run.result.divergence && run.wave && !run.layout.pairs.empty()) {
+  if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {
     run.measurement = measure_wave(wave_component(run.result.signals, *run.wave),
                                    run.time_step * static_cast<double>(in.sample_every), run.layout, run.context);
   }

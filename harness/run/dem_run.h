@@ -28,9 +28,17 @@ struct RunOptions {
   /// The static speed where the caller knows it (m/s): narrows the windows and the run time. Else the kinematic estimate.
   std::optional<double> expected_speed;
   std::function<bool(double)> on_progress;
+  int energy_samples = 50;  ///< of the energies over time
+  int snapshots = 0;        ///< of all discs, over the run
 };
 
-/// Throws InputError (scene). A divergence is not an exception but in result.divergence.
+/// What happened, for people: "the run diverged", and what to do about it.
+struct BreakdownText {
+  std::string what, advice;
+};
+BreakdownText describe(const Breakdown& breakdown, const Scene& scene);
+
+/// Throws InputError (scene). A divergence is not an exception but in result.breakdown.
 DemRun run_scene(const Scene& scene, const RunOptions& options = {});
 
 /// The component of the signals that carries the wave.

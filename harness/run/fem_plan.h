@@ -14,7 +14,8 @@ struct FemPlan {
 };
 
 /// `moduli` may be left out where [continuum] gives E, nu and density; then the packing is not built either, and probes
-/// lie at their nominal places. The strip reaches from the mean x of the left edge's discs to that of the right edge's.
+/// lie at their nominal places. The strip reaches from the mean x of the left edge's discs to that of the right edge's; a driven edge
+/// between periodic ones stands where the static displacement of the discs inside places it.
 /// Throws InputError for a load that has no continuum counterpart (state files) and for missing material.
 FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli);
 

@@ -56,7 +56,7 @@ NoiseRun run_noise(const Assembly& assembly, SimulationInput input) {
   const SimulationResult result = simulate(assembly, input);
   NoiseRun run;
   run.steps = result.steps_done;
-  run.diverged = result.divergence.has_value();
+  run.diverged = result.breakdown.has_value();
   const std::size_t samples = result.signals.time.size(), quarter = samples / 4;
   if (quarter < 2) {
     run.growth = run.diverged ? 1.0 : 0.0;

@@ -3,6 +3,10 @@
 namespace ddem::harness {
 namespace {
 
+Json speed_or_status(const WaveSpeed& w) {
+  return w.speed.ok() ? Json(w.speed.value().mean) : Json{{"status", w.speed.error().reason}};
+}
+
 /// wave_speed, wave_speed_stddev and pairs; what was not measured is a status with the reason.
 void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const ProbeLayout& layout, const std::string& why_not) {
   if (!m) {
@@ -10,13 +14,13 @@ void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const Pro
     j["pairs"] = Json::array();
     return;
   }
+  j["wave_speed"] = speed_or_status(m->speed);
   if (m->speed.speed.ok()) {
-    const SpeedStatistics& s = m->speed.speed.value();
-    j["wave_speed"] = s.mean;
-    j["wave_speed_stddev"] = s.stddev ? Json(*s.stddev) : Json{{"status", "a single pair has no standard deviation"}};
-  } else {
-    j["wave_speed"] = {{"status", m->speed.speed.error().reason}};
+    const auto stddev = m->speed.speed.value().stddev;
+    j["wave_speed_stddev"] = stddev ? Json(*stddev) : Json{{"status", "a single pair has no standard deviation"}};
   }
+  j["wave_speed_by_centroid"] = m->by_centroid ? speed_or_status(*m->by_centroid) : Json{{"status", "a released column sends no pulse of known width"}};
+  j["wave_speed_by_correlation"] = speed_or_status(m->by_correlation);
   j["good_pairs"] = m->speed.good_pairs;
   j["pairs"] = Json::array();
   for (const PairSpeed& p : m->speed.pairs) {
@@ -37,10 +41,12 @@ void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const Pro
 Json run_json(const DemRun& run) {
   const SimulationResult& r = run.result;
   Json j{{"status", "ok"}};
-  if (r.divergence) {
-    j["status"] = "diverged";
-    j["diverged_step"] = r.divergence->step;
-    j["diverged_disc"] = r.divergence->disc;
+  if (r.breakdown) {
+    j["status"] = r.breakdown->cause == Breakdown::Cause::diverged                ? "diverged"
+                  : r.breakdown->cause == Breakdown::Cause::strains_not_converged ? "strains not converged"
+                                                                                  : "strains indefinite";
+    j["diverged_step"] = r.breakdown->step;
+    j["diverged_disc"] = r.breakdown->disc;
   }
   j["warnings"] = run.warnings;
   j["discs"] = run.assembly.size();
@@ -58,7 +64,7 @@ Json run_json(const DemRun& run) {
   j["energy_drift"] = r.energy_drift ? Json(*r.energy_drift)
                                      : Json{{"status", "not audited: nonlinear kinematics has no leapfrog invariant, or the run "
                                                        "ended before its source did"}};
-  add_measurement(j, run.measurement, run.layout, r.divergence ? "the run diverged" : "the scene has no pairs of probes and pulse");
+  add_measurement(j, run.measurement, run.layout, r.breakdown ? "the run broke down" : "the scene has no pairs of probes and pulse");
   return j;
 }
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "dem/assembly/bond_stiffness.h"
 #include "dem/assembly/contacts.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
@@ -18,6 +19,19 @@ references::ContactModel contact_model(const DeformationParameters& d) {
     case ddem::Correction::normal_only_stress: return references::ContactModel::ddem_normal_only_stress;
   }
   return references::ContactModel::dem;
+}
+
+/// Of bonds of different stiffness, the one that gives the same sum k_n L^2: what a uniform strain feels.
+double mean_normal_stiffness(const ddem::Assembly& a, const ContactParameters& contact) {
+  if (contact.uniform()) return contact.normal_stiffness;
+  const std::vector<double> k_n = normal_stiffnesses(a, contact);
+  double weighted = 0.0, weight = 0.0;
+  for (std::size_t c = 0; c < k_n.size(); ++c) {
+    const double square = a.bonds.length[c] * a.bonds.length[c];
+    weighted += k_n[c] * square;
+    weight += square;
+  }
+  return weighted / weight;
 }
 
 /// Homogenisation in the directions in which the assembly is periodic.
@@ -68,7 +82,7 @@ SceneModuli scene_moduli(const Scene& scene) {
     }
     if (const auto closed = build_laterally_closed(scene)) m.stiffness = homogenise(scene, *closed);
     m.strip = pull_strip(a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a));
-    m.method = m.stiffness ? "the packing closed in y, homogenised; bar speed from the free strip under tension"
+    m.method = m.stiffness ? "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension"
                            : "the free strip under tension only: this packing from a file does not close in y (give its width as the period)";
   } catch (const std::invalid_argument& e) {
     throw InputError(scene.path.string() + ": [assembly]: " + e.what());
@@ -88,9 +102,10 @@ references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembl
                         ? references::plane_strain_constants(deformation.young_modulus, deformation.poisson_ratio)
                         : references::PlaneConstants{deformation.young_modulus, deformation.poisson_ratio};
   }
-  const references::Fabric fabric = references::random_fabric(a.bonds.length, a.packing.radius, a.area());
-  return references::effective_moduli(contact_model(deformation), fabric,
-                                      {contact.normal_stiffness, contact.stiffness_ratio}, disc);
+  references::Fabric fabric = references::random_fabric(a.bonds.length, a.packing.radius, a.area());
+  if (deformation.volume == ddem::ParticleVolume::cell) fabric.solid_fraction = 1.0;  // the cells fill the assembly
+  return references::effective_moduli(contact_model(deformation), fabric, {mean_normal_stiffness(a, contact), contact.stiffness_ratio},
+                                      disc);
 }
 
 double kinematic_speed(const Scene& scene, const ddem::Assembly& a, Wave wave) {

@@ -35,6 +35,7 @@ HexagonalBloch bloch_of(const Scene& scene, const ddem::Assembly& a, const Conta
   const double angle = packing.close_packed_along == Axis::x ? 0.0 : 0.5 * std::numbers::pi;
   ContactParameters uniform = contact;
   uniform.normal_stiffness = normal_stiffness(a, contact);
+  uniform.contact_modulus = 0.0;
   return {{a.packing.radius.front(), a.density, a.thickness, angle}, uniform, deformation};
 }
 

@@ -82,11 +82,13 @@ Deformation build_deformation(const Values& values) {
   deformation.scheme = values.choice<DeformationScheme>("deformation.scheme");
   deformation.evaluations = values.integer("deformation.evaluations");
   deformation.relaxation = values.number("deformation.relaxation");
+  deformation.solver = values.choice<StrainSolver>("deformation.solver");
   deformation.tolerance = values.number("deformation.tolerance");
   deformation.correction = values.choice<Correction>("deformation.correction");
   deformation.young_modulus = values.number("deformation.young_modulus");
   deformation.poisson_ratio = values.number("deformation.poisson_ratio");
   deformation.plane = values.choice<Plane>("deformation.plane");
+  deformation.volume = values.choice<ParticleVolume>("deformation.particle_volume");
   return deformation;
 }
 

@@ -134,6 +134,10 @@ void check_assembly(Values& values, bool discs_needed) {
     require(values, "assembly.length");
     require(values, "assembly.width");
     if (discs_needed) require(values, "assembly.discs");
+    if (values.is("assembly.walls", "flat") && periodic_x(values)) {
+      values.reject("assembly.walls", "a cell that is periodic in x and y has no place for walls",
+                    "leave walls out, or use periodic = \"y\" for walls at the two ends");
+    }
   }
 }
 

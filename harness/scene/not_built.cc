@@ -17,8 +17,6 @@ struct NotBuilt {
 };
 
 constexpr NotBuilt not_built[] = {
-    {"assembly.walls", When::equals, "flat", "use walls = \"periodic\""},
-    {"contact.contact_modulus", When::given, "", "use normal_stiffness"},
     {"time.integrator", When::equals, "exact", "use integrator = \"verlet\""},
 };
 

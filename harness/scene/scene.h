@@ -96,16 +96,20 @@ struct Contact {
 enum class DeformationScheme { none, lagged, implicit };
 enum class Correction { normal, full, normal_only_stress };
 enum class Plane { stress, strain };
+enum class StrainSolver { polynomial, conjugate_gradients };
+enum class ParticleVolume { disc, cell };
 
 struct Deformation {
   DeformationScheme scheme = DeformationScheme::lagged;  ///< never none: that is a scene without deformation
   std::int64_t evaluations = 1;                          ///< of the forces, per step
   double relaxation = 1.0;
-  double tolerance = 1e-4;  ///< implicit: of the stiffness, against converged strains
+  StrainSolver solver = StrainSolver::polynomial;  ///< implicit
+  double tolerance = 2.5e-4;  ///< implicit: of the stiffness, or of the strains
   Correction correction = Correction::normal;
   double young_modulus = 0.0;  ///< of the disc, Pa
   double poisson_ratio = 0.0;  ///< of the disc
   Plane plane = Plane::stress;
+  ParticleVolume volume = ParticleVolume::disc;
 };
 
 enum class Edge { free, fixed_x, fixed };

@@ -1,10 +1,14 @@
 #pragma once
-// Frictionless soft discs in a periodic cell, relaxed to a minimum of their energy sum_c overlap_c^2 / 2.
+// Frictionless soft discs in a cell with periodic edges or flat walls, relaxed to a minimum of their energy
+// sum_c overlap_c^2 / 2.
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "dem/core/packing.h"
+#include "meshes/packings/flat_walls.h"
 
 namespace ddem::packings {
 
@@ -14,7 +18,7 @@ class SoftDiscs {
   struct State {
     double mean_overlap = 0.0, largest_overlap = 0.0;  ///< m; forces as well, with unit stiffness
     double unbalanced_force = 0.0;  ///< largest net force on a disc over the mean contact force
-    int contacts = 0;
+    int contacts = 0;               ///< those with walls included
     int iterations = 0;
     bool converged = false;
   };
@@ -25,8 +29,8 @@ class SoftDiscs {
     int most_iterations;
   };
 
-  /// `start` holds the centres, the radii and both periods.
-  explicit SoftDiscs(Packing start);
+  /// `start` holds the centres, the radii, the size, and the periods in the directions without walls.
+  SoftDiscs(Packing start, FlatWalls walls);
 
   const Packing& packing() const { return packing_; }
 
@@ -37,28 +41,55 @@ class SoftDiscs {
   State minimise(const Goal& goal);
 
  private:
-  /// A neighbour of a disc; the shift to its nearest image is fixed while the list is valid.
-  struct Neighbour {
-    int disc;
-    double shift_x, shift_y;
-    double radii;
+  /// Neighbours (i, j), i < j: of a block of discs the first one of every disc, then the second ones and so on, since
+  /// sums into the same disc one after the other would wait for each other. Those through a period come last; only they have a shift to
+  /// j's nearest image, which is fixed while the list is valid.
+  struct Pairs {
+    std::vector<int> i, j;
+    std::size_t first_shifted = 0;
+    std::vector<double> shift_x, shift_y;  ///< of pair first_shifted + k
   };
 
-  /// Sums over the discs: F.v, F.F, v.v; and the largest F.F of a disc.
+  /// Pairs on their way through the force loop: few enough to stay in the innermost cache.
+  static constexpr std::size_t kBatch = 256;
+  struct Batch {
+    std::array<double, kBatch> dx, dy, radii, overlap;
+
+    void press(std::size_t count);
+  };
+
+  struct Overlaps {
+    double sum = 0.0, largest = 0.0;
+    int contacts = 0;
+
+    void add(double overlap) {
+      sum += overlap;
+      largest = std::max(largest, overlap);
+      contacts += overlap > 0.0 ? 1 : 0;
+    }
+  };
+
+  /// Sums over the discs: F.v, F.F, v.v; and the largest F.F and v.v of a disc.
   struct Products {
-    double power = 0.0, force2 = 0.0, velocity2 = 0.0, largest_force2 = 0.0;
+    double power = 0.0, force2 = 0.0, velocity2 = 0.0, largest_force2 = 0.0, largest_velocity2 = 0.0;
   };
 
   void build_list();
-  State evaluate_forces(Products& products);
+  void gather(std::size_t first, std::size_t count);
+  void scatter(std::size_t first, std::size_t count, Overlaps& overlaps);
+  void add_wall_forces(Overlaps& overlaps);
+  State evaluate_forces();  ///< all but what the minimiser knows
+  Products products() const;
   void advance(double dt, double keep, double push);
+  void keep_list_valid(double largest_move);
 
   Packing packing_;
+  FlatWalls walls_;
   std::vector<double> vx_, vy_, fx_, fy_;
-  std::vector<Neighbour> neighbours_;  ///< of disc i, with higher numbers: from first_[i] to first_[i + 1]
-  std::vector<std::size_t> first_;
+  Pairs pairs_;
+  Batch batch_;
   std::vector<double> listed_x_, listed_y_;  ///< centres when the list was built
-  double skin_ = 0.0;
+  double skin_ = 0.0, moved_ = 0.0;           ///< since then, at most
 };
 
 }  // namespace ddem::packings

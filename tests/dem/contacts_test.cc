@@ -244,5 +244,18 @@ TEST(MeanRadius, IsTheMean) {
   EXPECT_THROW(coordination(Bonds{}, 0), std::invalid_argument);
 }
 
+// A row of four discs with gaps 0.1, 0.2, 0.3: over the two inner discs, one gap of 0.1 counts one end, 0.2 two.
+TEST(GapForCoordination, CountsTheMarkedDiscsOnly) {
+  const Packing row{{0.0, 2.1, 4.3, 6.6}, {0.0, 0.0, 0.0, 0.0}, {1.0, 1.0, 1.0, 1.0}, {}, 10.0, 10.0};
+  const std::vector<char> inner = {0, 1, 1, 0};
+  EXPECT_NEAR(gap_for_coordination(row, 0.5, inner), 0.15, 1e-12);
+  EXPECT_NEAR(gap_for_coordination(row, 1.5, inner), 0.25, 1e-12);
+  const Bonds all = bonds_within_gap(row, 0.35);
+  EXPECT_DOUBLE_EQ(coordination(all, inner), 2.0);
+  EXPECT_DOUBLE_EQ(coordination(all, row.size()), 1.5);
+  EXPECT_THROW(gap_for_coordination(row, 1.0, std::vector<char>{1, 1}), std::invalid_argument);
+  EXPECT_THROW(coordination(all, std::vector<char>{0, 0, 0, 0}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace ddem

@@ -78,7 +78,7 @@ double amplification(const Assembly& a, double lambda, const DeformationParamete
   in.initial.ux = test::Noise(3).vector(a.size(), 1e-9);
   in.initial.uy = test::Noise(4).vector(a.size(), 1e-9);
   const SimulationResult r = simulate(a, in);
-  if (r.divergence) return HUGE_VAL;
+  if (r.breakdown) return HUGE_VAL;
   double largest = 0.0;
   for (const auto* u : {&r.final_state.ux, &r.final_state.uy}) {
     for (const double value : *u) largest = std::max(largest, std::abs(value));

@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,7 @@
 #include "dem/assembly/packing_check.h"
 #include "dem/assembly/rattlers.h"
 #include "meshes/packings/rng.h"
+#include "meshes/packings/statistics.h"
 #include "tests/support/oracle_files.h"
 
 namespace ddem::packings {
@@ -26,9 +28,6 @@ namespace {
 
 constexpr RandomSpec kStrip{.length = 16.5e-3, .width = 2e-3, .discs = 682};
 constexpr int kSeeds = 4;
-
-// Bits of a small packing, made on x86-64 with GCC 12 at -O3.
-constexpr std::uint64_t kReferenceHash = 11604584007427108295ULL;
 
 const Packing& strip(int seed) {
   static const auto packings = [] {
@@ -192,16 +191,29 @@ TEST(RandomJammed, HasNoVoids) {
   }
 }
 
-TEST(RandomJammed, ReportsWhatItMade) {
-  JammingReport report;
-  const Packing packing = random_jammed(kStrip, &report);
-  EXPECT_DOUBLE_EQ(report.porosity, porosity(packing));
-  EXPECT_DOUBLE_EQ(report.mean_radius, mean_radius(packing));
-  EXPECT_LE(report.largest_overlap, 1e-3);
-  EXPECT_LE(report.unbalanced_force, 1e-4);
-  EXPECT_GE(report.contacts, 2 * (682 - report.rattlers) - 1);
-  EXPECT_LT(report.rattlers, 0.1 * 682);
-  EXPECT_GT(report.iterations, 0);
+// Porosities (and through them the radii) of different seeds have nothing to do with each other: over 2 x 24 seeds the
+// correlation of neighbouring ones has the standard error 1/sqrt(24) = 0.2; and no two packings share a disc.
+TEST(RandomJammed, SeedsAreIndependent) {
+  constexpr int n = 24;
+  std::array<double, n + 1> p{};
+  std::vector<std::vector<double>> places;
+  double mean = 0.0;
+  for (int k = 0; k <= n; ++k) {
+    const Packing packing = random_jammed({.length = 4e-3, .width = 3e-3, .discs = 120, .seed = 100u + static_cast<unsigned>(k)});
+    p[k] = porosity(packing);
+    mean += p[k] / (n + 1);
+    places.push_back(packing.x);
+  }
+  double variance = 0.0, covariance = 0.0;
+  for (int k = 0; k < n; ++k) {
+    variance += (p[k] - mean) * (p[k] - mean);
+    covariance += (p[k] - mean) * (p[k + 1] - mean);
+    std::vector<double> shared;
+    std::set_intersection(places[k].begin(), places[k].end(), places[k + 1].begin(), places[k + 1].end(), std::back_inserter(shared));
+    EXPECT_TRUE(shared.empty());
+  }
+  EXPECT_GT(std::sqrt(variance / n), 1e-4);
+  EXPECT_LT(std::abs(covariance / variance), 3.0 / std::sqrt(n));
 }
 
 TEST(RandomJammed, IsReproducible) {
@@ -209,10 +221,11 @@ TEST(RandomJammed, IsReproducible) {
   EXPECT_NE(hash(strip(1)), hash(strip(2)));
 }
 
-// The same bits on every machine and compiler: integer random numbers, + - * / and square roots only.
+// The same bits on every machine and compiler: integer random numbers, + - * / and square roots only. A change of the
+// algorithm changes kJammingBits, and with it the names of cached packings.
 TEST(RandomJammed, HasTheBitsOfOtherMachines) {
   const RandomSpec spec{.length = 5e-3, .width = 2e-3, .discs = 60, .seed = 7};
-  EXPECT_EQ(hash(random_jammed(spec)), kReferenceHash);
+  EXPECT_EQ(hash(random_jammed(spec)), kJammingBits);
 }
 
 // Wide distributions jam denser, equal discs crystallise in part: both stay dense and within bounds.
@@ -220,8 +233,8 @@ TEST(RandomJammed, CopesWithEveryRadiusRatio) {
   for (const double ratio : {1.0, 3.0, 10.0}) {
     RandomSpec spec = kStrip;
     spec.radius_ratio = ratio;
-    JammingReport report;
-    const Packing packing = random_jammed(spec, &report);
+    const Packing packing = random_jammed(spec);
+    const PackingStatistics report = statistics_of(packing);
     const auto [low, high] = std::minmax_element(packing.radius.begin(), packing.radius.end());
     EXPECT_NEAR(*high / *low, ratio, 1e-12 * ratio);
     EXPECT_LE(report.largest_overlap, 1e-3);

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
-#include <tuple>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "harness/campaign/strip_campaign.h"
+#include "harness/references/column_release.h"
+#include "harness/references/driven_columns.h"
 #include "harness/run/dem_run.h"
-#include "harness/run/scene_moduli.h"
 #include "tests/verification/laws.h"
 
 namespace ddem::harness {
@@ -26,16 +28,19 @@ const test::Law& law_of(Model model) {
   return model == Model::dem ? test::kDem : test::kFull;
 }
 
-/// The measured speed of a case, which is a failure of the test where there is none.
-double measured_speed(const StripCampaign& s, const StripCase& c, double expected) {
+/// A case's measurement, which is a failure of the test where there is none.
+WaveMeasurement measured(const StripCampaign& s, const StripCase& c, double expected) {
   const DemRun run = run_scene(scene_of(scene_text(s, c, expected), id_of(c)), {expected, {}});
-  EXPECT_FALSE(run.result.divergence) << id_of(c);
-  if (!run.measurement || !run.measurement->speed.speed.ok()) {
-    ADD_FAILURE() << id_of(c) << ": no speed";
-    return std::nan("");
-  }
+  EXPECT_FALSE(run.result.breakdown) << id_of(c);
+  if (!run.measurement) throw std::runtime_error(id_of(c) + ": nothing measured");
   EXPECT_EQ(run.measurement->speed.good_pairs, 5u) << id_of(c);
-  return run.measurement->speed.speed.value().mean;
+  EXPECT_EQ(run.measurement->by_centroid.value().good_pairs, 5u) << id_of(c);
+  EXPECT_EQ(run.measurement->by_correlation.good_pairs, 5u) << id_of(c);
+  return *run.measurement;
+}
+
+double mean(const WaveSpeed& speed) {
+  return speed.speed.value().mean;
 }
 
 /// Closed-form speeds of the infinite lattice. Nominal size and periods are those of the lattice, so its bulk
@@ -51,14 +56,18 @@ double closed_form_speed(const StripCampaign& s, const StripCase& c) {
 class HexagonalStrip : public testing::TestWithParam<Model> {};
 
 /// 68 x 10 discs, pulse of 8 mm. The lattice's own dispersion slows a wave of that length by A (k r)^2 = .153
-/// * .0089 = .14 % (P, k_t = 0, the largest), and 0.2 % is allowed.
+/// * .0089 = .14 % (P, k_t = 0, the largest), and 0.2 % is allowed. The centroid travels at the speed of infinitely long
+/// waves, whatever the dispersion, but for the tail that its window cuts off: 0.02 %.
 TEST_P(HexagonalStrip, WithinTwoThousandths) {
   const StripCampaign s;
   for (const double ratio : {0.0, 0.3, 1.0}) {
     for (const StripWave wave : {StripWave::p, StripWave::shear}) {
       const StripCase c{StripPacking::hexagonal, 0, GetParam(), ratio, Protocol::long_wave, wave};
       const double exact = closed_form_speed(s, c);
-      EXPECT_NEAR(measured_speed(s, c, exact) / exact, 1.0, 0.002) << id_of(c);
+      const WaveMeasurement m = measured(s, c, exact);
+      EXPECT_NEAR(mean(m.speed) / exact, 1.0, 0.002) << id_of(c);
+      EXPECT_NEAR(mean(m.by_correlation) / exact, 1.0, 0.002) << id_of(c);
+      EXPECT_NEAR(mean(*m.by_centroid) / exact, 1.0, 0.0002) << id_of(c);
     }
   }
 }
@@ -73,32 +82,65 @@ TEST(HexagonalDispersion, IsTheLattices) {
   for (const auto& [wave, a] : {std::pair{StripWave::p, 0.153}, std::pair{StripWave::shear, 0.042}}) {
     const StripCase c{StripPacking::hexagonal, 0, Model::dem, 0.0, Protocol::long_wave, wave};
     const double exact = closed_form_speed(s, c);
-    const double error = measured_speed(s, c, exact) / exact - 1.0;
+    const double error = mean(measured(s, c, exact).speed) / exact - 1.0;
     EXPECT_NEAR(error, -a * kr * kr, a * kr * kr / 3.0) << id_of(c);
   }
 }
 
-class RandomStrip : public testing::TestWithParam<std::tuple<Model, double>> {};
-
-/// Each wave against the static stiffness of its own packing along x. Single packings scatter by 0.7 % around
-/// it (what the pulse averages over is not what the gauge does), the mean of four by 0.35 %; 1.5 % is
-/// allowed.
-TEST_P(RandomStrip, MeanOfFourSeeds) {
+/// The same signals from the lattice's own equations, solved by modes in closed form (driven_columns.h): what is left is
+/// the time step, (w dt)^2/24 = 0.008 % for the highest frequency in the top of the pulse at a fifth of the critical step.
+/// Signals of shear agree up to the end of the window; with P the right end is held here and free there.
+TEST(HexagonalDispersion, IsExactlyThatOfItsColumns) {
   const StripCampaign s;
-  const auto [model, ratio] = GetParam();
-  double p = 0.0, shear = 0.0;
-  for (const std::int64_t seed : {1, 2, 3, 4}) {
-    StripCase c{StripPacking::random, seed, model, ratio, Protocol::long_wave, StripWave::p};
-    const DirectionalSpeeds statics =
-        scene_moduli(scene_of(assembly_text(s, c, false), id_of(c))).speeds().value();
-    p += (measured_speed(s, c, statics.p) / statics.p - 1.0) / 4.0;
-    c.wave = StripWave::shear;
-    shear += (measured_speed(s, c, statics.s) / statics.s - 1.0) / 4.0;
+  for (const double ratio : {0.0, 0.3, 1.0}) {
+    for (const StripWave wave : {StripWave::p, StripWave::shear}) {
+      const StripCase c{StripPacking::hexagonal, 0, Model::dem, ratio, Protocol::long_wave, wave};
+      const double expected = closed_form_speed(s, c);
+      const DemRun run = run_scene(scene_of(scene_text(s, c, expected), id_of(c)), {expected, {}});
+      const int columns = static_cast<int>(2 * s.columns);
+      const references::DrivenColumns lattice({columns, s.normal_stiffness, ratio, run.assembly.mass[0]},
+                                              wave == StripWave::p ? references::ColumnWave::p : references::ColumnWave::shear,
+                                              run.context.source_duration);
+      const auto& recorded = wave_component(run.result.signals, *run.wave);
+      std::vector<std::vector<double>> exact;
+      for (const Probe& probe : run.layout.probes) {
+        std::vector<double> weights(static_cast<std::size_t>(columns), 0.0);
+        for (const int d : probe.receiver.discs) {
+          const double column = (run.assembly.packing.x[d] - run.context.left_end) / run.assembly.packing.radius[d];
+          weights.at(std::lround(column)) += run.context.source_amplitude / static_cast<double>(probe.receiver.discs.size());
+        }
+        exact.push_back(lattice.signal(weights, run.time_step, recorded[exact.size()].size()));
+      }
+      const WaveMeasurement reference = measure_wave(exact, run.time_step, run.layout, run.context);
+      EXPECT_NEAR(mean(run.measurement->speed) / mean(reference.speed), 1.0, 2e-4) << id_of(c);
+      EXPECT_NEAR(mean(*run.measurement->by_centroid) / mean(*reference.by_centroid), 1.0, 2e-4) << id_of(c);
+      if (wave == StripWave::p) continue;
+      for (std::size_t n = 0; n < exact.back().size(); ++n) {
+        EXPECT_NEAR(recorded.back()[n], exact.back()[n], 1e-3 * run.context.source_amplitude) << id_of(c) << ", sample " << n;
+      }
+    }
   }
-  RecordProperty("p_over_static", std::to_string(p));
-  RecordProperty("shear_over_static", std::to_string(shear));
-  EXPECT_NEAR(p, 0.0, 0.015);
-  EXPECT_NEAR(shear, 0.0, 0.015);
+}
+
+/// Shear at k_t = 0 is a chain of columns, a radius apart, with springs between neighbours: c = c_0 sin(q)/q, q = k r/2. The
+/// time step makes it faster by (w dt)^2/24, w up to 2 pi 1.6/duration: 2e-5. The window cuts the tail of the pulse, 1e-3 of
+/// its height for an oscillation, of a spectrum that is a tenth at the band's end, in a phase of 2 pi and more: 1e-3.
+TEST(HexagonalDispersion, OfPhaseVelocityIsTheChains) {
+  const StripCampaign s;
+  const StripCase c{StripPacking::hexagonal, 0, Model::dem, 0.0, Protocol::long_wave, StripWave::shear};
+  const double exact = closed_form_speed(s, c);
+  const DemRun run = run_scene(scene_of(scene_text(s, c, exact), id_of(c)), {exact, {}});
+  const auto velocities = phase_velocities(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context);
+  ASSERT_EQ(velocities.size(), 5u);
+  const double radius = run.assembly.packing.radius[0], duration = run.context.source_duration;
+  for (const auto& v : velocities) {
+    ASSERT_TRUE(v.ok()) << v.error().reason;
+    EXPECT_GT(v.value().frequency.back() * duration, 1.4);
+    for (std::size_t n = 0; n < v.value().frequency.size(); ++n) {
+      const double k = 2.0 * std::numbers::pi * v.value().frequency[n] / v.value().speed[n];
+      EXPECT_NEAR(v.value().speed[n] / (exact * references::chain_phase_speed(k * radius)), 1.0, 1e-3) << v.value().frequency[n] * duration;
+    }
+  }
 }
 
 std::string model_name(Model m) {
@@ -107,13 +149,5 @@ std::string model_name(Model m) {
 
 INSTANTIATE_TEST_SUITE_P(Models, HexagonalStrip, testing::Values(Model::dem, Model::lagged_full, Model::implicit_full),
                          [](const auto& model) { return model_name(model.param); });
-INSTANTIATE_TEST_SUITE_P(Models, RandomStrip,
-                         testing::Combine(testing::Values(Model::dem, Model::lagged_full, Model::implicit_full),
-                                          testing::Values(0.2, 1.0)),
-                         [](const auto& parameters) {
-                           return model_name(std::get<0>(parameters.param)) + "Kt" +
-                                  std::to_string(std::lround(100 * std::get<1>(parameters.param)));
-                         });
-
 }  // namespace
 }  // namespace ddem::harness

@@ -174,16 +174,21 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     NotBuiltYet, OneMistake,
     testing::Values(
-        Mistake{"682", "682\nwalls = \"flat\"",
-                "assembly.walls = \"flat\": not built yet; use walls = \"periodic\""},
-        Mistake{"normal_stiffness = 1e10", "contact_modulus = \"20 GPa\"",
-                "not built yet; use normal_stiffness"},
         Mistake{"", "[time]\nintegrator = \"exact\"\n", "not built yet; use integrator = \"verlet\""}));
 
 TEST(SceneErrors, PlaneStressTakesWhatPlaneStrainCannot) {
   EXPECT_TRUE(parse(small_scene() + "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.5\n"));
   EXPECT_TRUE(parse(small_scene() + "[time]\nstep_fraction = 1.01\nallow_above_critical = true\n"));
   EXPECT_TRUE(parse(small_scene() + "[contact.x]\n").violations.size() == 1u);
+}
+
+TEST(SceneErrors, WallsNeedAnEdge) {
+  const std::string flat = "[assembly]\npacking = \"random\"\nlength = 1\nwidth = 1\ndiscs = 9\nwalls = \"flat\"\n";
+  EXPECT_TRUE(parse(flat, Purpose::packing));
+  EXPECT_TRUE(parse(flat + "periodic = \"y\"\n", Purpose::packing));
+  EXPECT_EQ(messages(flat + "periodic = \"xy\"\n", Purpose::packing),
+            "scene.toml:6: assembly.walls = \"flat\": a cell that is periodic in x and y has no place for walls; leave walls "
+            "out, or use periodic = \"y\" for walls at the two ends\n");
 }
 
 TEST(SceneErrors, HexagonalByTwoWaysAtOnce) {

@@ -1,0 +1,82 @@
+// Eight doubles that are worked on at once, one lane a disc: vector extensions, which the compiler turns into whatever
+// the instruction set has, so that the bits are those of eight scalars everywhere. Include only from the kernels.
+//
+// What a bond reads of the other disc stands together in memory, four doubles a disc (kQuad): one load brings it, where
+// a gather of each component would take eight. In registers it is a Triple, one Pack a component.
+
+#include <cmath>
+#include <cstdint>
+
+#include "dem/kernel/step_data.h"
+
+namespace ddem::DDEM_ISA {
+namespace {
+
+constexpr int kWidth = 8;  // kLanes
+
+// A call between the loads and the sums of a bond would cost more than the bond.
+#define DDEM_INLINE [[gnu::always_inline]] inline
+#define DDEM_INLINE_LAMBDA __attribute__((always_inline))
+
+using Pack = double __attribute__((vector_size(64)));
+
+DDEM_INLINE Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p); }
+DDEM_INLINE void store(double* p, Pack v) { *reinterpret_cast<Pack*>(p) = v; }
+DDEM_INLINE Pack all(double x) { return Pack{x, x, x, x, x, x, x, x}; }
+
+DDEM_INLINE Pack square_root(Pack v) {
+  for (int l = 0; l < kWidth; ++l) v[l] = std::sqrt(v[l]);
+  return v;
+}
+
+/// u_x, u_y, theta of eight discs, or eps_xx, eps_yy, eps_xy.
+struct Triple {
+  Pack a, b, c;
+};
+
+#ifdef __AVX512F__
+using Quad = double __attribute__((vector_size(32)));
+
+DDEM_INLINE Pack join(Quad low, Quad high) { return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7); }
+DDEM_INLINE Pack even(Pack x, Pack y) { return __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14); }
+DDEM_INLINE Pack odd(Pack x, Pack y) { return __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15); }
+DDEM_INLINE Pack first_halves(Pack x, Pack y) { return __builtin_shufflevector(x, y, 0, 1, 4, 5, 8, 9, 12, 13); }
+DDEM_INLINE Pack second_halves(Pack x, Pack y) { return __builtin_shufflevector(x, y, 2, 3, 6, 7, 10, 11, 14, 15); }
+
+/// A transposition of 8 x 4 doubles; disc(l) points to those of lane l.
+template <class Disc>
+DDEM_INLINE Triple transpose(Disc disc) {
+  const auto quad = [&disc](int l) DDEM_INLINE_LAMBDA { return *reinterpret_cast<const Quad*>(disc(l)); };
+  const Pack p02 = join(quad(0), quad(2)), p13 = join(quad(1), quad(3)), p46 = join(quad(4), quad(6)), p57 = join(quad(5), quad(7));
+  const Pack low = even(p02, p13), high = even(p46, p57);  // a0 a1 c0 c1 a2 a3 c2 c3, and 4 to 7
+  return {first_halves(low, high), first_halves(odd(p02, p13), odd(p46, p57)), second_halves(low, high)};
+}
+#else
+template <class Disc>
+DDEM_INLINE Triple transpose(Disc disc) {
+  const auto component = [&disc](int k) DDEM_INLINE_LAMBDA {
+    return Pack{disc(0)[k], disc(1)[k], disc(2)[k], disc(3)[k], disc(4)[k], disc(5)[k], disc(6)[k], disc(7)[k]};
+  };
+  return {component(0), component(1), component(2)};
+}
+#endif
+
+/// Of the discs p .. p + 7, and of any eight discs.
+DDEM_INLINE Triple load_triple(const double* base, int p) {
+  return transpose([=](int l) DDEM_INLINE_LAMBDA { return base + kQuad * (p + l); });
+}
+DDEM_INLINE Triple gather(const double* base, const std::int32_t* disc) {
+  return transpose([=](int l) DDEM_INLINE_LAMBDA { return base + kQuad * static_cast<std::ptrdiff_t>(disc[l]); });
+}
+
+DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
+  for (int l = 0; l < kWidth; ++l) {
+    double* disc = base + kQuad * (p + l);
+    disc[0] = t.a[l];
+    disc[1] = t.b[l];
+    disc[2] = t.c[l];
+  }
+}
+
+}  // namespace
+}  // namespace ddem::DDEM_ISA

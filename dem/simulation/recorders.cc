@@ -1,0 +1,90 @@
+#include "dem/simulation/recorders.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ddem {
+namespace {
+
+MotionView motion_before(const StepData& d) { return {d.motion_next}; }
+MotionView motion_after(const StepData& d) { return {d.motion}; }
+
+}  // namespace
+
+SignalRecorder::SignalRecorder(const SimulationInput& input, const Stepper& stepper) : input_(input), stepper_(stepper) {
+  const std::size_t receivers = input.receivers.size(), samples = static_cast<std::size_t>(input.steps / input.sample_every + 1);
+  signals_.time.reserve(samples);
+  for (auto* s : {&signals_.ux, &signals_.uy, &signals_.theta}) {
+    s->resize(receivers);
+    for (auto& values : *s) values.reserve(samples);
+  }
+}
+
+void SignalRecorder::sample() {
+  if (stepper_.step() % input_.sample_every != 0) return;
+  const MotionView u = motion_after(stepper_.data());
+  signals_.time.push_back(static_cast<double>(stepper_.step()) * input_.time_step);
+  for (std::size_t r = 0; r < input_.receivers.size(); ++r) {
+    double ux = 0.0, uy = 0.0, theta = 0.0;
+    for (const int disc : input_.receivers[r].discs) {
+      const int p = stepper_.place_of(disc);
+      ux += u.ux(p);
+      uy += u.uy(p);
+      if (input_.contact.has_rotation()) theta += u.theta(p);
+    }
+    const double n = static_cast<double>(input_.receivers[r].discs.size());
+    signals_.ux[r].push_back(ux / n);
+    signals_.uy[r].push_back(uy / n);
+    signals_.theta[r].push_back(theta / n);
+  }
+}
+
+EnergyRecorder::EnergyRecorder(const Assembly& a, const SimulationInput& in, const Stepper& s)
+    : audit_(a, in.contact, in.deformation, s.order()), stepper_(s), time_step_(in.time_step) {
+  active_ = in.contact.kinematics == Kinematics::linear;
+  every_ = std::max<long>(1, in.steps / in.energy_samples);
+  last_ = in.steps;
+  if (in.drive) undriven_ = static_cast<long>(std::ceil(in.drive->duration / in.time_step)) + 1;
+}
+
+void EnergyRecorder::after_step() {
+  const long n = stepper_.step();
+  const bool first_undriven = !reference_ && n >= undriven_;
+  if (!active_ || !(first_undriven || n % every_ == 0 || n == last_)) return;
+  const StepData& d = stepper_.data();
+  const Energies e = audit_.energies(motion_before(d), motion_after(d), stepper_.velocities(), stepper_.strains_in_use());
+  samples_.push_back({static_cast<double>(n - 1) * time_step_, e});
+  if (n < undriven_) return;
+  if (!reference_) {
+    reference_ = e.invariant;
+  } else if (*reference_ > 0.0) {
+    drift_ = std::max(drift_, std::abs(e.invariant / *reference_ - 1.0));
+  }
+}
+
+std::optional<double> EnergyRecorder::drift() const {
+  return reference_ && std::isfinite(drift_) ? std::optional(drift_) : std::nullopt;
+}
+
+SnapshotRecorder::SnapshotRecorder(const Assembly& a, const SimulationInput& in, const Stepper& s)
+    : audit_(a, in.contact, in.deformation, s.order()), input_(in), stepper_(s) {}
+
+void SnapshotRecorder::after_step() {
+  // Snapshot k of m comes after step k steps / m.
+  const long taken = static_cast<long>(snapshots_.size());
+  if (taken >= input_.snapshots || stepper_.step() * input_.snapshots < (taken + 1) * input_.steps) return;
+  const StepData& d = stepper_.data();
+  const MotionView u = motion_before(d);
+  const StrainView e = stepper_.strains_in_use();
+  Snapshot s;
+  s.time = static_cast<double>(stepper_.step() - 1) * input_.time_step;
+  s.state = stepper_.state_of(u.values);
+  if (input_.contact.kinematics == Kinematics::linear) s.stress = audit_.stress(u, e);
+  if (input_.deformation.active()) {
+    const auto component = [&](int k) { return stepper_.in_order(e.values + k, kQuad); };
+    s.strain = {component(0), component(1), component(2)};
+  }
+  snapshots_.push_back(std::move(s));
+}
+
+}  // namespace ddem

@@ -1,0 +1,58 @@
+#pragma once
+// What a run keeps: signals of receivers, energies, and now and then all discs. Each looks at the stepper after a step,
+// which then holds u_{n+1} in the current buffers and u_n in the others.
+
+#include <optional>
+#include <vector>
+
+#include "dem/simulation/audit.h"
+#include "dem/simulation/simulation.h"
+#include "dem/simulation/stepper.h"
+
+namespace ddem {
+
+class SignalRecorder {
+ public:
+  SignalRecorder(const SimulationInput& input, const Stepper& stepper);
+  void sample();
+  Signals take() { return std::move(signals_); }
+
+ private:
+  const SimulationInput& input_;
+  const Stepper& stepper_;
+  Signals signals_;
+};
+
+/// Energies, and how well the leapfrog invariant holds from the end of the drive on.
+class EnergyRecorder {
+ public:
+  EnergyRecorder(const Assembly& assembly, const SimulationInput& input, const Stepper& stepper);
+  void after_step();
+  std::optional<double> drift() const;
+  std::vector<EnergySample> take() { return std::move(samples_); }
+
+ private:
+  StateAudit audit_;
+  const Stepper& stepper_;
+  double time_step_ = 0.0;
+  bool active_ = false;
+  long every_ = 1, last_ = 0, undriven_ = 1;
+  std::optional<double> reference_;
+  double drift_ = 0.0;
+  std::vector<EnergySample> samples_;
+};
+
+class SnapshotRecorder {
+ public:
+  SnapshotRecorder(const Assembly& assembly, const SimulationInput& input, const Stepper& stepper);
+  void after_step();
+  std::vector<Snapshot> take() { return std::move(snapshots_); }
+
+ private:
+  StateAudit audit_;
+  const SimulationInput& input_;
+  const Stepper& stepper_;
+  std::vector<Snapshot> snapshots_;
+};
+
+}  // namespace ddem

@@ -1,0 +1,13 @@
+#pragma once
+// A step is a row of stages: the particle strains first, then the motion. Each is one sweep of a kernel over the discs.
+
+namespace ddem {
+
+enum class Stage {
+  evaluate,                          ///< lagged: a further evaluation of the strains
+  source, iterate,                   ///< implicit, polynomial
+  residual, apply, advance, turn,    ///< implicit, conjugate gradients
+  motion                             ///< forces, velocities, displacements: ends the step
+};
+
+}  // namespace ddem

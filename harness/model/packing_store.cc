@@ -1,0 +1,148 @@
+#include "harness/model/packing_store.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <future>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "harness/io/atomic_file.h"
+
+namespace ddem::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+// First word of a file. It reads differently where bytes have another order.
+constexpr std::uint64_t kFormat = 0x31676e696b636170ULL;  // "packing1"
+
+void append(std::string& bytes, std::uint64_t word) {
+  char raw[sizeof word];
+  std::memcpy(raw, &word, sizeof word);
+  bytes.append(raw, sizeof word);
+}
+
+void append(std::string& bytes, const std::vector<double>& values) {
+  for (const double value : values) append(bytes, std::bit_cast<std::uint64_t>(value));
+}
+
+/// FNV-1a.
+std::uint64_t hash(std::string_view bytes) {
+  std::uint64_t h = 0xcbf29ce484222325ULL;
+  for (const char byte : bytes) h = (h ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return h;
+}
+
+/// Everything that decides on the packing's bits.
+std::string header(const packings::RandomSpec& spec) {
+  std::string bytes;
+  append(bytes, kFormat);
+  append(bytes, packings::kJammingBits);
+  append(bytes, std::vector<double>{spec.length, spec.width, spec.radius_ratio});
+  append(bytes, static_cast<std::uint64_t>(spec.discs));
+  append(bytes, spec.seed);
+  append(bytes, (spec.walls.x ? 1u : 0u) + (spec.walls.y ? 2u : 0u));
+  return bytes;
+}
+
+std::vector<double> doubles(std::string_view bytes) {
+  std::vector<double> values(bytes.size() / sizeof(double));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+Packing made_or_cached(const packings::RandomSpec& spec) {
+  const auto folder = packing_cache_folder();
+  if (!folder) return packings::random_jammed(spec);
+  const fs::path file = packing_cache_file(*folder, spec);
+  if (auto packing = read_cached_packing(file, spec)) return *packing;
+  Packing packing = packings::random_jammed(spec);
+  write_cached_packing(file, spec, packing);
+  return packing;
+}
+
+}  // namespace
+
+std::optional<fs::path> packing_cache_folder() {
+  // Both must be absolute: a relative one would leave files wherever the program is started (XDG base directories).
+  const auto absolute = [](const char* variable) -> std::optional<fs::path> {
+    const char* value = std::getenv(variable);
+    if (value == nullptr || *value != '/') return std::nullopt;
+    return fs::path(value);
+  };
+  if (const auto cache = absolute("XDG_CACHE_HOME")) return *cache / "ddem";
+  if (const auto home = absolute("HOME")) return *home / ".cache" / "ddem";
+  return std::nullopt;
+}
+
+fs::path packing_cache_file(const fs::path& folder, const packings::RandomSpec& spec) {
+  return folder / fmt::format("packing-{:016x}", hash(header(spec)));
+}
+
+std::optional<Packing> read_cached_packing(const fs::path& file, const packings::RandomSpec& spec) noexcept {
+  try {
+    const std::string head = header(spec);
+    const auto discs = static_cast<std::size_t>(spec.discs);
+    const std::size_t column = discs * sizeof(double), expected = head.size() + 3 * column + sizeof(std::uint64_t);
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) != expected || error) return std::nullopt;
+    const std::string bytes = read_file(file);
+    if (bytes.size() != expected || !bytes.starts_with(head)) return std::nullopt;
+    const std::string_view content = std::string_view(bytes).substr(0, expected - sizeof(std::uint64_t));
+    std::string checksum;
+    append(checksum, hash(content));
+    if (std::string_view(bytes).substr(content.size()) != checksum) return std::nullopt;
+    const auto at = [&](std::size_t k) { return doubles(content.substr(head.size() + k * column, column)); };
+    return Packing{at(0), at(1), at(2), {spec.walls.x ? 0.0 : spec.length, spec.walls.y ? 0.0 : spec.width},
+                   spec.length, spec.width};
+  } catch (...) {
+    return std::nullopt;  // a cache is a convenience: whatever is wrong with it, the packing is made anew
+  }
+}
+
+void write_cached_packing(const fs::path& file, const packings::RandomSpec& spec, const Packing& packing) noexcept {
+  try {
+    std::error_code ignored;
+    fs::create_directories(file.parent_path(), ignored);
+    std::string bytes = header(spec);
+    for (const auto* values : {&packing.x, &packing.y, &packing.radius}) append(bytes, *values);
+    append(bytes, hash(bytes));
+    write_file(file, bytes);
+  } catch (...) {
+    // A full disk or a folder of somebody else: the next process jams again.
+  }
+}
+
+Packing stored_random_packing(const packings::RandomSpec& spec) {
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_future<Packing>> made;
+  std::promise<Packing> promise;
+  std::shared_future<Packing> packing;
+  bool make = false;
+  {
+    const std::lock_guard lock(mutex);
+    auto [entry, absent] = made.try_emplace(header(spec));
+    make = absent;
+    if (absent) entry->second = promise.get_future().share();
+    packing = entry->second;
+  }
+  if (make) {
+    try {
+      promise.set_value(made_or_cached(spec));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return packing.get();
+}
+
+}  // namespace ddem::harness

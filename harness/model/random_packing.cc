@@ -1,0 +1,44 @@
+#include "harness/model/random_packing.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "harness/model/packing_store.h"
+#include "meshes/packings/tile.h"
+
+namespace ddem::harness {
+
+packings::FlatWalls walls_of(const RandomPacking& packing, Periodicity periodic) {
+  const bool flat = packing.walls == Walls::flat;
+  return {flat && !periodic.x, flat && !periodic.y};
+}
+
+packings::Tiling tiling_of(const RandomPacking& p, Periodicity periodic) {
+  const bool walled = walls_of(p, periodic) != packings::FlatWalls{};
+  if (walled && p.discs > packings::kLargestJammed)
+    throw std::invalid_argument(
+        fmt::format("{} discs between flat walls would have to be jammed as a whole, which takes too long above {}: take "
+                    "fewer discs, or walls = \"periodic\"",
+                    p.discs, packings::kLargestJammed));
+  return packings::tiling_of(p.discs, p.length, p.width);
+}
+
+Packing random_packing(const RandomPacking& p, Periodicity periodic) {
+  const packings::Tiling tiling = tiling_of(p, periodic);
+  packings::RandomSpec spec{.length = p.length / tiling.nx,
+                            .width = p.width / tiling.ny,
+                            .discs = tiling.discs,
+                            .seed = static_cast<std::uint64_t>(p.seed),
+                            .radius_ratio = p.radius_ratio,
+                            .walls = walls_of(p, periodic)};
+  Packing packing = stored_random_packing(spec);
+  if (tiling.nx == 1 && tiling.ny == 1) return packing;
+  packing = packings::tile(packing, tiling.nx, tiling.ny);
+  // As asked for, not nx times a rounded part of it.
+  packing.length = packing.period.x = p.length;
+  packing.width = packing.period.y = p.width;
+  return packing;
+}
+
+}  // namespace ddem::harness

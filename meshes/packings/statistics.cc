@@ -1,0 +1,121 @@
+#include "meshes/packings/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "dem/assembly/contacts.h"
+
+namespace ddem::packings {
+namespace {
+
+constexpr double kNeighbourGap = 0.5;  // mean radii
+constexpr double kOrdered = 0.9;
+
+struct Touch {
+  int i, j;             ///< j = -1: a wall
+  double fx, fy;        ///< force on j
+  double overlap;
+};
+
+std::vector<Touch> touches_of(const Packing& packing, FlatWalls walls) {
+  std::vector<Touch> touches;
+  for (const ClosePair& c : close_pairs(packing, 0.0)) {
+    const double distance = std::sqrt(c.dx * c.dx + c.dy * c.dy);
+    if (c.gap < 0.0 && distance > 0.0)
+      touches.push_back({c.i, c.j, -c.gap * c.dx / distance, -c.gap * c.dy / distance, -c.gap});
+  }
+  for (int i = 0; i < static_cast<int>(packing.size()); ++i) {
+    const auto touch = [&](double distance, double nx, double ny) {
+      const double overlap = packing.radius[i] - distance;
+      if (overlap > 0.0) touches.push_back({i, -1, nx * overlap, ny * overlap, overlap});
+    };
+    if (walls.x) {
+      touch(packing.x[i], -1.0, 0.0);
+      touch(packing.length - packing.x[i], 1.0, 0.0);
+    }
+    if (walls.y) {
+      touch(packing.y[i], 0.0, -1.0);
+      touch(packing.width - packing.y[i], 0.0, 1.0);
+    }
+  }
+  return touches;
+}
+
+/// Two forces hold a disc only if they are collinear.
+int count_rattlers(std::size_t discs, const std::vector<Touch>& touches) {
+  std::vector<char> gone(discs, 0);
+  int rattlers = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<int> held(discs, 0);
+    for (const Touch& t : touches) {
+      if (gone[t.i] || (t.j >= 0 && gone[t.j])) continue;
+      ++held[t.i];
+      if (t.j >= 0) ++held[t.j];
+    }
+    for (std::size_t i = 0; i < discs; ++i)
+      if (!gone[i] && held[i] < 3) {
+        gone[i] = 1;
+        ++rattlers;
+        changed = true;
+      }
+  }
+  return rattlers;
+}
+
+double unbalanced_force(std::size_t discs, const std::vector<Touch>& touches) {
+  std::vector<double> fx(discs, 0.0), fy(discs, 0.0);
+  double sum = 0.0, largest2 = 0.0;
+  for (const Touch& t : touches) {
+    sum += t.overlap;
+    fx[t.i] -= t.fx;
+    fy[t.i] -= t.fy;
+    if (t.j < 0) continue;
+    fx[t.j] += t.fx;
+    fy[t.j] += t.fy;
+  }
+  for (std::size_t i = 0; i < discs; ++i) largest2 = std::max(largest2, fx[i] * fx[i] + fy[i] * fy[i]);
+  return touches.empty() ? 0.0 : std::sqrt(largest2) / (sum / static_cast<double>(touches.size()));
+}
+
+double ordered_fraction(const Packing& packing) {
+  std::vector<std::complex<double>> psi(packing.size());
+  std::vector<int> neighbours(packing.size(), 0);
+  for (const ClosePair& c : close_pairs(packing, kNeighbourGap * mean_radius(packing))) {
+    const std::complex<double> direction(c.dx, c.dy), square = direction * direction;
+    const std::complex<double> sixth = square * square * square;
+    const double size = std::abs(sixth);
+    if (!(size > 0.0)) continue;
+    for (const int d : {c.i, c.j}) {  // seen from the other end, the sixth power is the same
+      psi[d] += sixth / size;
+      ++neighbours[d];
+    }
+  }
+  int ordered = 0;
+  for (std::size_t i = 0; i < packing.size(); ++i)
+    ordered += neighbours[i] == 6 && std::abs(psi[i]) > 6.0 * kOrdered ? 1 : 0;
+  return static_cast<double>(ordered) / static_cast<double>(packing.size());
+}
+
+}  // namespace
+
+PackingStatistics statistics_of(const Packing& packing, FlatWalls walls) {
+  const std::vector<Touch> touches = touches_of(packing, walls);
+  double area = 0.0, overlap = 0.0;
+  for (const double radius : packing.radius) area += std::numbers::pi * radius * radius;
+  for (const Touch& t : touches) overlap = std::max(overlap, t.overlap);
+  PackingStatistics s;
+  s.porosity = 1.0 - area / (packing.length * packing.width);
+  s.mean_radius = mean_radius(packing);
+  s.largest_overlap = overlap / s.mean_radius;
+  s.unbalanced_force = unbalanced_force(packing.size(), touches);
+  s.contacts = static_cast<int>(touches.size());
+  s.rattlers = count_rattlers(packing.size(), touches);
+  s.ordered_fraction = ordered_fraction(packing);
+  return s;
+}
+
+}  // namespace ddem::packings

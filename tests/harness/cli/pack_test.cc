@@ -1,0 +1,133 @@
+// ddem pack: what it reports, walls, tiles, and the cache of jammed packings.
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include "harness/io/atomic_file.h"
+#include "harness/io/json.h"
+#include "harness/model/packing_store.h"
+#include "tests/harness/cli/program.h"
+
+namespace ddem::harness::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Pack : public Cli {
+ protected:
+  void SetUp() override {
+    if (const char* old = std::getenv("XDG_CACHE_HOME")) old_ = old;
+    ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+  }
+  void TearDown() override {
+    if (old_.empty())
+      ::unsetenv("XDG_CACHE_HOME");
+    else
+      ::setenv("XDG_CACHE_HOME", old_.c_str(), 1);
+  }
+
+  Json packed(const std::string& lines) {
+    write("scene.toml", "[assembly]\npacking = \"random\"\nlength = \"8 mm\"\nwidth = \"2 mm\"\n" + lines);
+    const SubprocessResult result = ddem({"pack", path("scene.toml"), "-o", path("discs.csv"), "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    text_ = result.standard_error;
+    return Json::parse(result.standard_output);
+  }
+
+  std::size_t files_in_cache() const {
+    const fs::path folder = in_folder("cache") / "ddem";
+    return fs::exists(folder) ? static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})) : 0;
+  }
+
+  std::string text_;
+
+ private:
+  std::string old_;
+};
+
+TEST_F(Pack, ReportsWhatThePackingIsLike) {
+  for (const double wanted : {4.6, 5.9}) {
+    for (const std::string walls : {"periodic", "flat"}) {
+      const Json j = packed("discs = 330\nwalls = \"" + walls + "\"\ncoordination = " + std::to_string(wanted) + "\n");
+      EXPECT_EQ(j["discs"], 330);
+      EXPECT_EQ(j["length"], 8e-3);
+      EXPECT_EQ(j["width"], 2e-3);
+      EXPECT_NEAR(j["coordination"].get<double>(), wanted, 0.02) << walls;
+      EXPECT_LT(j["network_coordination"].get<double>(), wanted);
+      EXPECT_NEAR(j["porosity"].get<double>(), 0.17, 0.03);
+      EXPECT_LE(j["largest_overlap"].get<double>(), 1e-3);
+      EXPECT_TRUE(j["warnings"].empty());
+      EXPECT_THAT(text_, HasSubstr("porosity"));
+    }
+  }
+}
+
+TEST_F(Pack, WarnsOfCrystals) {
+  const Json j = packed("discs = 330\nradius_ratio = 1\n");
+  EXPECT_EQ(j["warnings"].size(), 1u);
+  EXPECT_THAT(text_, HasSubstr("discs of nearly the same size crystallise"));
+}
+
+TEST_F(Pack, TilesLargeSamples) {
+  const Json j = packed("discs = 28252\n");  // 28 times a prime number: small cells, quickly jammed
+  EXPECT_EQ(j["discs"], 25225);
+  EXPECT_EQ(j["tiles"], Json({7, 2}));
+  EXPECT_EQ(j["discs_in_a_tile"], 2018);
+  EXPECT_THAT(text_, HasSubstr("copies of one periodic cell"));
+  write("scene.toml", read("scene.toml") + "walls = \"flat\"\n");
+  const SubprocessResult refused = ddem({"pack", path("scene.toml"), "-o", path("discs.csv")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.standard_error, HasSubstr("or walls = \"periodic\""));
+}
+
+TEST_F(Pack, JamsOnceAndGivesTheSameBits) {
+  packed("discs = 330\n");
+  const std::string made = read("discs.csv");
+  ASSERT_EQ(files_in_cache(), 1u);
+  packed("discs = 330\n");
+  EXPECT_EQ(read("discs.csv"), made);
+  packed("discs = 330\nseed = 2\n");
+  EXPECT_NE(read("discs.csv"), made);
+  EXPECT_EQ(files_in_cache(), 2u);
+  // Damaged files and a cache that cannot be written to change nothing.
+  for (const auto& entry : fs::directory_iterator(in_folder("cache") / "ddem")) write_file(entry.path(), "damaged");
+  packed("discs = 330\n");
+  EXPECT_EQ(read("discs.csv"), made);
+  fs::remove_all(in_folder("cache"));
+  write("cache", "no folder");
+  packed("discs = 330\n");
+  EXPECT_EQ(read("discs.csv"), made);
+}
+
+TEST_F(Pack, TrustsNoCacheFileThatIsNotItsOwn) {
+  const packings::RandomSpec spec{.length = 4e-3, .width = 3e-3, .discs = 120, .seed = 5};
+  const Packing packing = packings::random_jammed(spec);
+  const fs::path file = packing_cache_file(in_folder("own"), spec);
+  EXPECT_FALSE(read_cached_packing(file, spec));
+  write_cached_packing(file, spec, packing);
+  const auto again = read_cached_packing(file, spec);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->x, packing.x);
+  EXPECT_EQ(again->y, packing.y);
+  EXPECT_EQ(again->radius, packing.radius);
+  EXPECT_EQ(again->period.y, packing.period.y);
+
+  packings::RandomSpec other = spec;
+  other.walls.x = true;
+  EXPECT_NE(packing_cache_file(in_folder("own"), other), file);
+  EXPECT_FALSE(read_cached_packing(file, other));
+  const std::string bytes = read_file(file);
+  for (const std::size_t at : {std::size_t{0}, std::size_t{200}, bytes.size() - 1}) {
+    std::string flipped = bytes;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    write_file(file, flipped);
+    EXPECT_FALSE(read_cached_packing(file, spec)) << at;
+  }
+  write_file(file, bytes.substr(0, 300));
+  EXPECT_FALSE(read_cached_packing(file, spec));
+}
+
+}  // namespace
+}  // namespace ddem::harness::test
