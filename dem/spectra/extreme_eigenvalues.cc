@@ -14,8 +14,14 @@ namespace {
 constexpr Eigen::Index kMostIterations = 2000;
 constexpr double kResidual = 1e-5;
 
-void require_size(const LinearOperator& op, Eigen::Index least, const char* what) {
-  if (op.size < least) throw std::invalid_argument(std::string(what) + ": too few unknowns");
+// Up to so many unknowns the matrix itself is solved. Lanczos breaks down on operators of small rank, as those of a few
+// bonded discs are, and Spectra then answers with a wrong number; beyond, the rank exceeds the iteration's 40 vectors.
+constexpr Eigen::Index kDense = 200;
+
+Eigen::MatrixXd dense(const LinearOperator& op) {
+  Eigen::MatrixXd m(op.size, op.size);
+  for (Eigen::Index k = 0; k < op.size; ++k) m.col(k) = op.apply(Eigen::VectorXd::Unit(op.size, k));
+  return m;
 }
 
 void require_success(Spectra::CompInfo info, const char* what) {
@@ -27,8 +33,11 @@ void require_success(Spectra::CompInfo info, const char* what) {
 }  // namespace
 
 double largest_eigenvalue(LinearOperator op, const char* what) {
-  require_size(op, 3, what);
-  Spectra::SymEigsSolver<LinearOperator> solver(op, 1, std::min<Eigen::Index>(op.size, 40));
+  if (op.size <= kDense) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(op), Eigen::EigenvaluesOnly);
+    return solver.eigenvalues().maxCoeff();
+  }
+  Spectra::SymEigsSolver<LinearOperator> solver(op, 1, 40);
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, kMostIterations, kResidual);
   require_success(solver.info(), what);
@@ -36,8 +45,11 @@ double largest_eigenvalue(LinearOperator op, const char* what) {
 }
 
 double largest_magnitude(LinearOperator op, const char* what) {
-  require_size(op, 6, what);
-  Spectra::GenEigsSolver<LinearOperator> solver(op, 2, std::min<Eigen::Index>(op.size, 60));
+  if (op.size <= kDense) {
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(dense(op), false);
+    return solver.eigenvalues().cwiseAbs().maxCoeff();
+  }
+  Spectra::GenEigsSolver<LinearOperator> solver(op, 2, 60);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, kMostIterations, kResidual);
   require_success(solver.info(), what);
@@ -45,9 +57,9 @@ double largest_magnitude(LinearOperator op, const char* what) {
 }
 
 std::optional<EigenPair> outstanding_eigenvector(const LinearOperator& op, double outside) {
-  constexpr Eigen::Index first_look = 8, last_look = 16, most = 60;
+  const Eigen::Index most = std::min<Eigen::Index>(op.size, 60), first_look = std::min<Eigen::Index>(most, 8),
+                     last_look = std::min<Eigen::Index>(most, 16);
   constexpr double residual = 1e-3;
-  require_size(op, most, "outstanding eigenvalue");
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(op.size, most + 1), h = Eigen::MatrixXd::Zero(most + 1, most);
   std::mt19937_64 generator(1);
   for (Eigen::Index k = 0; k < op.size; ++k) basis(k, 0) = static_cast<double>(generator() >> 11) * 0x1.0p-52 - 1.0;

@@ -21,11 +21,11 @@ struct LinearOperator {
 };
 
 /// Largest eigenvalue of a symmetric operator. The residual is r = 1e-5 of the eigenvalue at most, and the eigenvalue then
-/// right to about r^2 or better. `what` names it in errors: throws std::invalid_argument for fewer than three unknowns,
-/// std::runtime_error if the iteration does not converge.
+/// right to about r^2 or better; small problems are solved as matrices. `what` names it in errors: throws
+/// std::runtime_error if the iteration does not converge. Needs an unknown.
 double largest_eigenvalue(LinearOperator op, const char* what);
 
-/// Largest magnitude of the eigenvalues of any operator; residual 1e-5 of it. Needs six unknowns; errors as above.
+/// Largest magnitude of the eigenvalues of any operator; residual 1e-5 of it. Otherwise as above.
 double largest_magnitude(LinearOperator op, const char* what);
 
 struct EigenPair {
@@ -35,7 +35,7 @@ struct EigenPair {
 
 /// The pair of largest magnitude of an operator that is dear to apply and whose other eigenvalues lie within the unit
 /// circle: Arnoldi's iteration without restarts, from a fixed start. None if after 16 applications no Ritz value lies
-/// beyond `outside` (> 1), else as many as bring its residual to 1e-3, 60 at most. Needs 60 unknowns.
+/// beyond `outside` (> 1), else as many as bring its residual to 1e-3, 60 at most.
 /// Spectra's iteration answers only what has converged, and would restart in vain where nothing stands out.
 std::optional<EigenPair> outstanding_eigenvector(const LinearOperator& op, double outside);
 

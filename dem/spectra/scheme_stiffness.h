@@ -23,6 +23,7 @@ class SchemeStiffness {
   /// `radius` is the spectral radius of T, and must be below 2/w - 1: throws std::invalid_argument otherwise.
   static SchemeStiffness flip(const Operators& operators, const DeformationParameters& deformation, double radius);
 
+  /// The operators must outlive this.
   Eigen::VectorXd apply(const Eigen::VectorXd& q) const;
 
  private:

@@ -94,6 +94,7 @@ void print_waves(const SceneStability& s) {
     print_row("infinite lattice", fmt::format("{:+.3g}", worst.growth),
               fmt::format("largest |z| - 1 of all plane waves, at k = ({:.4g}, {:.4g}) 1/m", worst.wave.x, worst.wave.y));
   }
+  if (!s.no_waves.empty()) fmt::print("\nNo prediction for waves: {}\n", s.no_waves);
   if (s.waves.empty()) return;
   fmt::print("\nWaves along x at this step ({}):\n", s.waves.front().exact ? "exact Bloch waves of the infinite lattice"
                                                                            : "long waves, from static moduli, first order in the lag");

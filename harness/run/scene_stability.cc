@@ -39,6 +39,17 @@ HexagonalBloch bloch_of(const Scene& scene, const ddem::Assembly& a, const Conta
   return {{a.packing.radius.front(), a.density, a.thickness, angle}, uniform, deformation};
 }
 
+/// An assembly may be too small or too floppy for static moduli, and still have a critical step.
+void find_static_waves(const Scene& scene, const std::vector<double>& wavelengths, SceneStability& s) {
+  try {
+    s.waves = static_waves(scene, s.time_step, wavelengths);
+  } catch (const InputError& e) {
+    s.no_waves = e.what();
+  } catch (const SolverError& e) {
+    s.no_waves = e.what();
+  }
+}
+
 /// Four radii is the shortest wave that discs in a row can carry.
 std::vector<double> check_wavelengths(const ddem::Assembly& a, std::vector<double> wavelengths) {
   const double shortest = 4.0 * mean_radius(a.packing), length = a.packing.length;
@@ -125,7 +136,7 @@ SceneStability scene_stability(const Scene& scene, std::vector<double> wavelengt
       s.lattice = {bloch.worst_wave(s.time_step), bloch.largest_stable_step()};
       s.waves = lattice_waves(bloch, s.time_step, chosen);
     } else {
-      s.waves = static_waves(scene, s.time_step, chosen);
+      find_static_waves(scene, chosen, s);
     }
   } catch (const std::invalid_argument& e) {
     throw InputError(scene.path.string() + ": " + e.what());

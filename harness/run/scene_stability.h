@@ -34,6 +34,7 @@ struct SceneStability {
   std::optional<NoiseRun> noise;              ///< N with shear stiffness
   std::optional<LatticeStability> lattice;    ///< hexagonal packings
   std::vector<WaveGrowth> waves;
+  std::string no_waves;                       ///< why there are none
 
   bool has_energy() const;  ///< every correction but N with shear stiffness
   /// Why the scene is unstable at its step; empty: it is stable.

@@ -112,6 +112,7 @@ Json stability_json(const SceneStability& s) {
                           {"growth_per_period", w.growth_per_period(s.time_step)},
                           {"method", w.exact ? "bloch" : "static_moduli"}});
   }
+  if (!s.no_waves.empty()) j["waves_status"] = s.no_waves;
   return j;
 }
 

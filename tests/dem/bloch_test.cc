@@ -196,23 +196,6 @@ TEST(BlochMultipliers, PublishedCorrectionIsUnstableAboveOneThird) {
   }
 }
 
-TEST(BlochMultipliers, FlipLimit) {
-  const Assembly a = periodic_cell();
-  for (const double softness : {0.1, 0.4}) {
-    const DeformationParameters d = strains(Scheme::lagged, Correction::full, softness);
-    const double limit = flip_limit_step(a, contact(0.3), d, {});
-    const HexagonalBloch bloch(lattice(), contact(0.3), d);
-    const auto growth = [&](double dt) {
-      double worst = -1.0;
-      for (const WaveVector& k : waves_of_the_cell()) worst = std::max(worst, bloch.growth(k, dt));
-      return worst;
-    };
-    // The uniform translation is a defective double eigenvalue 1: round-off to the power 1/2.
-    EXPECT_LT(growth(0.9999 * limit), 1e-7);
-    EXPECT_GT(growth(1.0001 * limit), 1e-4);
-  }
-}
-
 TEST(BlochInput, IsChecked) {
   EXPECT_THROW(HexagonalBloch({0.0, 2000.0, 1.0, 0.0}, contact(0.0), {}), std::invalid_argument);
   EXPECT_THROW(HexagonalBloch(lattice(), {0.0, 0.0, Kinematics::linear}, {}), std::invalid_argument);

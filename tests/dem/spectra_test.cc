@@ -50,5 +50,30 @@ TEST(FixedPoint, KnownRadius) {
   EXPECT_NEAR(fixed_point_radius(lattice(), {1e10, 0.0, Kinematics::linear}, d), 0.334225, 1e-6);
 }
 
+TEST(SmallAssemblies, TwoDiscsAndChains) {
+  // A short chain's operators have less rank than Lanczos has vectors, and a wrong answer from it.
+  for (const int n : {2, 3, 25, 70}) {
+    Packing p;
+    for (int d = 0; d < n; ++d) {
+      p.x.push_back(2e-4 * d);
+      p.y.push_back(0.0);
+      p.radius.push_back(1e-4);
+    }
+    p.length = 2e-4 * n, p.width = 2e-4;
+    const Assembly a = make_assembly(p, bonds_within_gap(p, 1e-5), 1.0, test::kDensity);
+    const ContactParameters contact{1e10, 0.0, Kinematics::linear};
+    // Longitudinal waves of a free chain: omega = 2 sqrt(k_n/m) sin(pi (n - 1)/(2 n)).
+    const double omega = 2.0 * std::sqrt(1e10 / a.mass[0]) * std::sin(0.5 * M_PI * (n - 1) / n);
+    EXPECT_NEAR(largest_frequency(a, contact, {}) / omega, 1.0, 1e-6) << n;
+    for (const double share : {0.25, 6.276902122}) {
+      const DeformationParameters d{Scheme::lagged, Correction::normal, 4e10 / share, 0.3, Plane::stress};
+      // A bond's force F strains a disc by r F/(pi r^2 E_p), which moves its bonds by r times that: with b = k_n/(pi E_p),
+      // K B has 2 b (both discs) on the diagonal and b beside it (the disc between), of n - 1 bonds.
+      const double b = share * 0.25 / M_PI;
+      EXPECT_NEAR(fixed_point_radius(a, contact, d), 2.0 * b * (1.0 + std::cos(M_PI / n)), 1e-6 * b) << n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ddem

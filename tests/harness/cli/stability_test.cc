@@ -77,6 +77,17 @@ TEST_F(Stability, OfTheLatticeOnBothSidesOfOneThird) {
   EXPECT_THAT(above["instabilities"].dump(), HasSubstr("infinite lattice"));
 }
 
+TEST_F(Stability, OfTwoDiscs) {
+  write("discs.csv", "x,y,radius\n1e-4,1e-4,1e-4\n3e-4,1e-4,1e-4\n");
+  std::string scene = replaced(file_scene(), "stiffness_ratio = 0.25", "stiffness_ratio = 0.0");
+  scene.erase(scene.find("[boundary]"));
+  const Json json = json_of(scene + "[boundary]\nright = \"free\"\n");
+  // omega^2 = 2 k_n/m.
+  EXPECT_NEAR(json["critical_time_step"].get<double>() / std::sqrt(2.0 * 2000.0 * M_PI * 1e-8 / 1e10), 1.0, 1e-12);
+  EXPECT_TRUE(json["waves"].empty());
+  EXPECT_THAT(json["waves_status"].get<std::string>(), HasSubstr("too short"));
+}
+
 TEST_F(Stability, OfGivenWavelengths) {
   const Json json = json_of(small_scene(), {"--wavelength", "4 mm", "--wavelength", "0.002"});
   ASSERT_EQ(json["waves"].size(), 6u);  // shear, P and rotation of each
