@@ -40,11 +40,11 @@ function(ddem_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ddem_flags)
 endfunction()
 
-# A GoogleTest executable: every test becomes a CTest of its own.
+# A GoogleTest executable: every test becomes a CTest of its own. LABELS nightly: left out of ./ddem test.
 function(ddem_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABELS" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} ddem_flags GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE DDEM_ORACLES="${DDEM_ROOT}/tests/oracles")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}")
 endfunction()

@@ -57,7 +57,7 @@ struct DeformationParameters {
   double relaxation = 1.0;   ///< lagged: weight of the new strain, the rest is that before
   /// implicit: largest relative error of a stiffness against the converged one (polynomial), or of the strains'
   /// residual (conjugate gradients).
-  double tolerance = 2.5e-4;
+  double tolerance = 2e-4;
   StrainSolver solver = StrainSolver::polynomial;
   ParticleVolume volume = ParticleVolume::disc;
 

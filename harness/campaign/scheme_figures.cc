@@ -18,7 +18,7 @@ reports::Color color_of(const std::string& scheme) {
 }
 
 reports::Plot energy_panel(const SchemeStudy& study) {
-  reports::Plot plot{.title = "energy over its first value", .x = {.label = "time", .unit = "s"}, .y = {.label = "energy"}};
+  reports::Plot plot{.title = "energy of a free strip", .x = {.label = "time", .unit = "s"}, .y = {.label = "energy over that of step 200"}};
   for (const EnergyCurve& c : study.energy) {
     const bool gradients = c.scheme.ends_with("gradients");
     plot.series.push_back({.name = fmt::format("{}, dt = {:g} of critical", c.scheme, c.step_fraction), .x = c.time, .y = c.energy, .color = gradients ? reports::Color::black : color_of(c.scheme),
@@ -33,7 +33,7 @@ reports::Plot reach_panel(const SchemeStudy& study) {
                      .y = {.label = "Poisson's ratio"}};
   reports::Series closed{.name = "closed form", .color = reports::Color::grey};
   for (const ReachCurve& c : study.reach) {
-    reports::Series s{.name = c.scheme, .kind = reports::SeriesKind::markers, .color = color_of(c.scheme)};
+    reports::Series s{.name = c.scheme + " strains", .kind = reports::SeriesKind::markers, .color = color_of(c.scheme)};
     for (const ReachPoint& p : c.points) s.x.push_back(p.softness), s.y.push_back(p.poisson.value_or(kNone));
     plot.series.push_back(s);
   }
@@ -60,9 +60,9 @@ reports::Plot order_panel(const SchemeStudy& study) {
 reports::Figure scheme_figure(const SchemeStudy& study) {
   return {.id = "schemes",
           .title = "Which scheme to choose",
-          .caption = "Left: rigid discs and implicit strains keep the energy of a free strip, lagged strains lose it, the faster the larger the step. "
-                     "Middle: lagged strains fail where kₙ/Eₚ passes their limit (no mark: the run diverged); half of the new strain a step moves the limit, "
-                     "implicit strains have none. Right: lagged strains are of first order in the step, the others of second.",
+          .caption = "First: rigid discs and implicit strains keep the energy of a free strip, lagged strains lose it, the faster the larger the step. "
+                     "Second: lagged strains fail where kₙ/Eₚ passes their limit (their marks end: the run diverged); half of the new strain a step moves "
+                     "the limit, implicit strains have none. Third: lagged strains are of first order in the step, the others of second.",
           .panels = {energy_panel(study), reach_panel(study), order_panel(study)}};
 }
 

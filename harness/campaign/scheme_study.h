@@ -18,7 +18,7 @@ struct StudiedScheme {
   ddem::DeformationParameters deformation;
 };
 
-/// The energy of a free strip that starts from rest in a long bending-free mode, u_x = A cos(pi x / L), over its first value.
+/// The energy of a free strip that starts from rest with u_x = A cos(pi x / L), over that of step 200.
 struct EnergyCurve {
   std::string scheme;
   double step_fraction = 0.0;

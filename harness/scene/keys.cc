@@ -120,7 +120,7 @@ constexpr KeySpec keys[] = {
     choice("deformation", "solver", "polynomial | conjugate_gradients", "\"polynomial\"",
            "implicit: a fixed polynomial, which conserves energy to round-off, or iteration from the strains before, which is "
            "faster for soft discs (k_n/E_p above 1)"),
-    number("deformation", "tolerance", small_fraction, "2.5e-4",
+    number("deformation", "tolerance", small_fraction, "2e-4",
            "implicit: largest relative error of the stiffness of any motion (polynomial) or of the strains (conjugate_gradients)"),
     choice("deformation", "correction", "normal | full | normal_only_stress", "\"normal\"",
            "N (published): normal overlaps; F: also slips; NN: stress from normal forces"),

@@ -104,7 +104,7 @@ struct Deformation {
   std::int64_t evaluations = 1;                          ///< of the forces, per step
   double relaxation = 1.0;
   StrainSolver solver = StrainSolver::polynomial;  ///< implicit
-  double tolerance = 2.5e-4;  ///< implicit: of the stiffness, or of the strains
+  double tolerance = 2e-4;  ///< implicit: of the stiffness, or of the strains
   Correction correction = Correction::normal;
   double young_modulus = 0.0;  ///< of the disc, Pa
   double poisson_ratio = 0.0;  ///< of the disc
