@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <string>
 
 #include "fem_reference/cases.h"
@@ -30,8 +31,11 @@ struct Arguments {
   int threads = 1;
 };
 
+// Of several processes, which all come to the same conclusions, the first one speaks and writes.
+bool is_first = true;
+
 int complain(Exit code, const std::string& message) {
-  fmt::print(stderr, "ddem-fem: {}\n", message);
+  if (is_first) fmt::print(stderr, "ddem-fem: {}\n", message);
   return code;
 }
 
@@ -47,7 +51,8 @@ CaseResult solve(const StripCase& strip, const StripModel& model, Team& team) {
 }
 
 int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
-  SignalsFile signals(arguments.output, version);
+  std::optional<SignalsFile> signals;
+  if (is_first) signals.emplace(arguments.output, version);
   StripModeller modeller;
   Team team(arguments.threads);
   bool all_ok = true;
@@ -56,10 +61,11 @@ int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
     const CaseResult result = solve(strip, model, team);
     if (!result.ok()) complain(solver_failed, fmt::format("case \"{}\": {}", strip.id, result.status));
     all_ok = all_ok && result.ok();
-    signals.write(strip, result);
+    if (!is_first) continue;
+    signals->write(strip, result);
     if (arguments.progress) fmt::print(stderr, "done {}\n", strip.id);
   }
-  signals.commit();
+  if (is_first) signals->commit();
   return all_ok ? done : solver_failed;
 }
 
@@ -68,15 +74,18 @@ int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arg
   // A process of its own needs no daemon of Open MPI, which costs 0.1 s at the start; mpirun sets the rank.
   if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  int code = done;
   try {
     return run(cases, arguments);
-  } catch (const CaseError& error) {
-    return complain(wrong_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    return complain(wrong_input, error.what());
+  } catch (const std::invalid_argument& error) {  // CaseError
+    code = complain(wrong_input, error.what());
   } catch (const std::exception& error) {  // disk, gmsh, memory
-    return complain(machine_failed, error.what());
+    code = complain(machine_failed, error.what());
   }
+  // The others may be waiting for this one.
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) MPI_Abort(MPI_COMM_WORLD, code);
+  return code;
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ Response driven(const StripProblem& problem) {
   r.coefficients = [pulse](double t, double dt, std::span<double> a) { drive_coefficients(pulse, t, dt, a); };
   r.factor = drive.amplitude;
   evaluate_receivers(problem.model, edge, r.edge);
+  if (problem.model.processes) problem.model.processes->sum(r.edge);
   r.motion = [pulse, amplitude = drive.amplitude](double t) { return amplitude * pulse(t); };
   r.largest_step = largest_step_for(pulse);
   return r;
@@ -68,6 +69,7 @@ Matrix march(const StripProblem& problem, const Response& response, std::size_t 
     evaluate_receivers(problem.model, leapfrog.displacement(), rows);
     audit.watch(leapfrog);
   }
+  if (problem.model.processes) problem.model.processes->sum(rows);
   result.steps = leapfrog.steps_done();
   result.energy_drift = audit.drift();
   return Eigen::Map<const Matrix>(rows.data(), static_cast<Eigen::Index>(count),

@@ -16,9 +16,14 @@ constexpr std::uint64_t steps_between_checks = 64;
 // Waves that meet at an edge or a corner double a few times; a thousand times the excitation is no wave.
 constexpr double largest_amplification = 1e3;
 
-bool within(std::span<const double> u, double limit) {
-  return std::all_of(u.begin(), u.end(),
-                     [&](double value) { return std::abs(value) <= limit; });  // false for NaN
+// In all processes.
+bool within(const StripModel& model, std::span<const double> u, double limit) {
+  const bool here = std::all_of(u.begin(), u.end(),
+                                [&](double value) { return std::abs(value) <= limit; });  // false for NaN
+  if (!model.processes) return here;
+  double beyond = here ? 0.0 : 1.0;
+  model.processes->sum({&beyond, 1});
+  return beyond == 0.0;
 }
 
 // Displacement that the excitation is worth, to tell a wave from an instability.
@@ -72,14 +77,16 @@ void march_verlet(const StripProblem& problem, CaseResult& result) {
     audit.watch(leapfrog);
     if (step % steps_between_checks != 0 && step != steps) continue;
     result.steps = step;
-    if (!within(leapfrog.displacement(), limit)) {
+    if (!within(model, leapfrog.displacement(), limit)) {
       result.status = fmt::format("unstable: step {}", step);
       result.time.resize(good_samples);
       result.signals.resize(good_samples * values);
+      if (model.processes) model.processes->sum(result.signals);
       return;
     }
     good_samples = result.time.size();
   }
+  if (model.processes) model.processes->sum(result.signals);
   result.energy_drift = audit.drift();
 }
 

@@ -8,6 +8,7 @@
 
 #include "fem_reference/cases.h"
 #include "fem_reference/kernel/element_mesh.h"
+#include "fem_reference/kernel/processes.h"
 #include "fem_reference/strip_receivers.h"
 
 namespace ddem::fem {
@@ -18,6 +19,9 @@ struct StripModel {
   std::vector<std::uint32_t> left_nodes, right_nodes;
   std::vector<NodeWeights> points;    ///< value at each point of the receivers
   std::vector<NodeWeights> sections;  ///< average over the height at each section, exact for the elements
+  /// Where several processes have a part of the model each (mpirun): receivers' values are then parts of sums. Else
+  /// empty.
+  std::shared_ptr<Processes> processes;
 };
 
 /// Builds models; keeps each mesh that gmsh has made, since many cases of a campaign share one.

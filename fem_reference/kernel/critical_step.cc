@@ -12,21 +12,23 @@ namespace {
 constexpr int largest_krylov_dimension = 2000;
 constexpr int test_interval = 10;
 
-double dot(std::span<const double> a, std::span<const double> b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
+// Mixes the bits of a number (splitmix64), as a number between -1/2 and 1/2.
+double noise(std::uint64_t state) {
+  state += 0x9E3779B97F4A7C15u;
+  state = (state ^ (state >> 30)) * 0xBF58476D1CE4E5B9u;
+  state = (state ^ (state >> 27)) * 0x94D049BB133111EBu;
+  return static_cast<double>((state ^ (state >> 31)) >> 11) * 0x1p-53 - 0.5;
 }
 
 // A start with a part in every mode: no symmetry of the mesh can hide the largest one.
-std::vector<double> pseudo_random_start(std::span<const double> root_inverse_mass) {
-  std::vector<double> start(root_inverse_mass.size());
-  std::uint64_t state = 0x9E3779B97F4A7C15u;
-  for (std::size_t k = 0; k < start.size(); ++k) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    start[k] = root_inverse_mass[k] > 0.0 ? static_cast<double>(state >> 11) * 0x1p-53 - 0.5 : 0.0;
+std::vector<double> pseudo_random_start(const ElasticOperator& stiffness, std::span<const double> root_inverse_mass,
+                                        std::span<const std::uint64_t> node_keys) {
+  std::vector<double> start(root_inverse_mass.size(), 0.0);
+  for (std::size_t k = 0; k < 2 * stiffness.node_count(); ++k) {
+    const std::uint64_t key = node_keys.empty() ? k / 2 : node_keys[k / 2];
+    if (root_inverse_mass[k] > 0.0) start[k] = noise(2 * key + k % 2);
   }
-  const double norm = std::sqrt(dot(start, start));
+  const double norm = std::sqrt(stiffness.dot(start, start));
   if (!(norm > 0.0)) throw std::invalid_argument("no degree of freedom is free");
   for (double& value : start) value /= norm;
   return start;
@@ -78,21 +80,22 @@ RitzValue largest_ritz_value(const std::vector<double>& alpha, const std::vector
 
 }  // namespace
 
-double largest_squared_frequency(const ElasticOperator& stiffness, std::span<const double> inverse_mass) {
+double largest_squared_frequency(const ElasticOperator& stiffness, std::span<const double> inverse_mass,
+                                 std::span<const std::uint64_t> node_keys) {
   const std::size_t size = stiffness.vector_size();
   if (inverse_mass.size() != size)
     throw std::invalid_argument("inverse mass must have vector_size() entries");
   std::vector<double> root(size), before(size, 0.0), scaled(size), image(size), alpha, beta;
   for (std::size_t k = 0; k < size; ++k) root[k] = std::sqrt(inverse_mass[k]);
-  std::vector<double> current = pseudo_random_start(root);
+  std::vector<double> current = pseudo_random_start(stiffness, root, node_keys);
   for (int step = 1; step <= largest_krylov_dimension; ++step) {
     for (std::size_t k = 0; k < size; ++k) scaled[k] = root[k] * current[k];
     stiffness.apply(scaled, image);
     for (std::size_t k = 0; k < size; ++k) image[k] *= root[k];
-    alpha.push_back(dot(current, image));
+    alpha.push_back(stiffness.dot(current, image));
     const double last_beta = beta.empty() ? 0.0 : beta.back();
     for (std::size_t k = 0; k < size; ++k) image[k] -= alpha.back() * current[k] + last_beta * before[k];
-    beta.push_back(std::sqrt(dot(image, image)));
+    beta.push_back(std::sqrt(stiffness.dot(image, image)));
     const bool exhausted = beta.back() <= 1e-13 * std::abs(alpha.front());
     if (exhausted || step % test_interval == 0) {
       const RitzValue ritz = largest_ritz_value(alpha, beta);
@@ -105,8 +108,9 @@ double largest_squared_frequency(const ElasticOperator& stiffness, std::span<con
   throw std::runtime_error("Lanczos: the largest eigenfrequency did not converge");
 }
 
-double critical_time_step(const ElasticOperator& stiffness, std::span<const double> inverse_mass) {
-  return 2.0 / std::sqrt(largest_squared_frequency(stiffness, inverse_mass));
+double critical_time_step(const ElasticOperator& stiffness, std::span<const double> inverse_mass,
+                          std::span<const std::uint64_t> node_keys) {
+  return 2.0 / std::sqrt(largest_squared_frequency(stiffness, inverse_mass, node_keys));
 }
 
 }  // namespace ddem::fem

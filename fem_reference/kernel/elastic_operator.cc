@@ -145,6 +145,29 @@ void ElasticOperator::apply_share(std::span<const double> u, std::span<double> f
     }
     team_->meet();
   }
+  if (processes_ == nullptr) return;
+  if (thread == 0) processes_->add_shared(f);
+  team_->meet();
+}
+
+void ElasticOperator::use(Processes& processes) {
+  processes_ = &processes;
+  std::vector<double> mass(vector_size(), 0.0);
+  for (std::size_t node = 0; node < mass_.size(); ++node) mass[2 * node] = mass_[node];
+  processes.add_shared(mass);
+  for (std::size_t node = 0; node < mass_.size(); ++node) mass_[node] = mass[2 * node];
+}
+
+double ElasticOperator::dot(std::span<const double> a, std::span<const double> b) const {
+  double sum = 0.0;
+  if (processes_ == nullptr) {
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    return sum;
+  }
+  const std::vector<double>& owned = processes_->owned();
+  for (std::size_t k = 0; k < 2 * owned.size(); ++k) sum += owned[k / 2] * a[k] * b[k];
+  processes_->sum({&sum, 1});
+  return sum;
 }
 
 }  // namespace ddem::fem

@@ -14,6 +14,7 @@
 
 #include "fem_reference/kernel/element_mesh.h"
 #include "fem_reference/kernel/material.h"
+#include "fem_reference/kernel/processes.h"
 #include "fem_reference/kernel/stiffness_kernel.h"
 #include "fem_reference/kernel/team.h"
 
@@ -42,6 +43,15 @@ class ElasticOperator {
   void use(Team& team) { team_ = &team; }
   Team& team() const { return *team_; }
 
+  /// Shares the mesh with other processes from now on: mass(), apply() and dot() then are those of the whole. All
+  /// processes must call them together.
+  void use(Processes& processes);
+  /// Null without.
+  Processes* processes() const { return processes_; }
+
+  /// Of vectors of vector_size() entries.
+  double dot(std::span<const double> a, std::span<const double> b) const;
+
  private:
   struct Block {
     std::size_t first_batch, last_batch;
@@ -61,6 +71,7 @@ class ElasticOperator {
   StiffnessKernel kernel_;
   std::unique_ptr<Team> alone_ = std::make_unique<Team>(1);
   Team* team_ = alone_.get();
+  Processes* processes_ = nullptr;
 };
 
 }  // namespace ddem::fem

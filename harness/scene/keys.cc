@@ -169,7 +169,7 @@ constexpr KeySpec keys[] = {
          "with physical curves left, right, bottom and top"),
 
     choice("time", "integrator", "verlet | exact", "\"verlet\"",
-           "velocity Verlet; exact: exact in time at the probes, linear scenes"),
+           "velocity Verlet; exact: exact in time at the probes, linear scenes (ddem fem: unless verlet is written)"),
     number("time", "step_fraction", positive, "0.2", "time step as a fraction of the critical one"),
     quantity("time", "step", time, positive, no_default, "instead of step_fraction: the time step"),
     quantity("time", "end", time, positive, no_default,

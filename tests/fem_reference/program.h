@@ -138,10 +138,10 @@ class Workplace {
     return static_cast<std::size_t>(std::distance(begin(files), end(files)));
   }
 
-  /// Runs ddem-fem in the folder with arguments as a shell takes them.
-  Outcome run(const std::string& arguments) const {
+  /// Runs ddem-fem in the folder with arguments as a shell takes them, under `launcher`.
+  Outcome run(const std::string& arguments, const std::string& launcher = "") const {
     const std::string command =
-        "cd '" + folder_.string() + "' && '" DDEM_FEM_PROGRAM "' " + arguments + " > .output 2> .errors";
+        "cd '" + folder_.string() + "' && " + launcher + "'" DDEM_FEM_PROGRAM "' " + arguments + " > .output 2> .errors";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".output"), read(".errors")};
     std::filesystem::remove(folder_ / ".output");
