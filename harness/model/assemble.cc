@@ -116,28 +116,35 @@ Bonds bonds_of_file(const Packing& packing, const BondFile& file) {
   return bonds_between(packing, *table);
 }
 
-/// The gap for a coordination of the material: discs at flat walls are not counted. Throws where discs that touch would
-/// have to stay without a bond.
-double gap_for(const Packing& packing, const std::vector<char>& counted, bool random, double coordination) {
-  const double gap = gap_for_coordination(packing, coordination, counted);
-  if (random && gap < 0.0)
+/// Discs at flat walls have neighbours on one side only: they do not count.
+std::vector<char> counted_discs(const Scene& scene, const Packing& packing, Periodicity periodic) {
+  const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
+  return packings::inner_discs(packing, random != nullptr ? walls_of(*random, periodic) : packings::FlatWalls{});
+}
+
+/// Throws where discs that touch would have to stay without a bond.
+double gap_for(const Scene& scene, const Packing& packing, Periodicity periodic, double coordination) {
+  const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
+  // Of a tiled packing the gap of its cell: in the whole, every gap is there as often as there are tiles.
+  const bool tiled = random != nullptr && tiling_of(*random, periodic).discs < random->discs;
+  const Packing& of = tiled ? jammed_cell(*random, periodic) : packing;
+  const std::vector<char> counted = counted_discs(scene, of, periodic);
+  const double gap = gap_for_coordination(of, coordination, counted);
+  if (random != nullptr && gap < 0.0)
     throw std::invalid_argument("the discs that touch make for a coordination of " +
-                                std::to_string(ddem::coordination(bonds_within_gap(packing, 0.0), counted)) +
+                                std::to_string(ddem::coordination(bonds_within_gap(of, 0.0), counted)) +
                                 " already; ask for more, or take a larger radius_ratio (equal discs crystallise)");
   return gap;
 }
 
 Bonding bonding_with(const Scene& scene, const Packing& packing, Periodicity periodic) {
-  const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
-  const std::vector<char> counted =
-      packings::inner_discs(packing, random != nullptr ? walls_of(*random, periodic) : packings::FlatWalls{});
   Bonding b;
   if (const auto* g = std::get_if<BondGap>(&scene.assembly.bonding)) b.gap = g->mean_radii * mean_radius(packing);
   if (const auto* c = std::get_if<BondCoordination>(&scene.assembly.bonding))
-    b.gap = gap_for(packing, counted, random != nullptr, c->bonds_per_disc);
+    b.gap = gap_for(scene, packing, periodic, c->bonds_per_disc);
   b.bonds = b.gap ? bonds_within_gap(packing, *b.gap)
                   : bonds_of_file(packing, std::get<BondFile>(scene.assembly.bonding));
-  b.coordination = coordination(b.bonds, counted);
+  b.coordination = coordination(b.bonds, counted_discs(scene, packing, periodic));
   return b;
 }
 

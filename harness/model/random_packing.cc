@@ -24,15 +24,19 @@ packings::Tiling tiling_of(const RandomPacking& p, Periodicity periodic) {
   return packings::tiling_of(p.discs, p.length, p.width);
 }
 
+Packing jammed_cell(const RandomPacking& p, Periodicity periodic) {
+  const packings::Tiling tiling = tiling_of(p, periodic);
+  return stored_random_packing({.length = p.length / tiling.nx,
+                                .width = p.width / tiling.ny,
+                                .discs = tiling.discs,
+                                .seed = static_cast<std::uint64_t>(p.seed),
+                                .radius_ratio = p.radius_ratio,
+                                .walls = walls_of(p, periodic)});
+}
+
 Packing random_packing(const RandomPacking& p, Periodicity periodic) {
   const packings::Tiling tiling = tiling_of(p, periodic);
-  packings::RandomSpec spec{.length = p.length / tiling.nx,
-                            .width = p.width / tiling.ny,
-                            .discs = tiling.discs,
-                            .seed = static_cast<std::uint64_t>(p.seed),
-                            .radius_ratio = p.radius_ratio,
-                            .walls = walls_of(p, periodic)};
-  Packing packing = stored_random_packing(spec);
+  Packing packing = jammed_cell(p, periodic);
   if (tiling.nx == 1 && tiling.ny == 1) return packing;
   packing = packings::tile(packing, tiling.nx, tiling.ny);
   // As asked for, not nx times a rounded part of it.

@@ -72,9 +72,10 @@ TEST_F(Pack, WarnsOfCrystals) {
 
 TEST_F(Pack, TilesLargeSamples) {
   const Json j = packed("discs = 28252\n");  // 28 times a prime number: small cells, quickly jammed
-  EXPECT_EQ(j["discs"], 25225);
+  EXPECT_EQ(j["discs"], 28252);
   EXPECT_EQ(j["tiles"], Json({7, 2}));
   EXPECT_EQ(j["discs_in_a_tile"], 2018);
+  EXPECT_NEAR(j["coordination"].get<double>(), 5.8, 1.0 / 2018);
   EXPECT_THAT(text_, HasSubstr("copies of one periodic cell"));
   write("scene.toml", read("scene.toml") + "walls = \"flat\"\n");
   const SubprocessResult refused = ddem({"pack", path("scene.toml"), "-o", path("discs.csv")});
