@@ -51,6 +51,19 @@ DDEM_INLINE Triple transpose(Disc disc) {
   const Pack low = even(p02, p13), high = even(p46, p57);  // a0 a1 c0 c1 a2 a3 c2 c3, and 4 to 7
   return {first_halves(low, high), first_halves(odd(p02, p13), odd(p46, p57)), second_halves(low, high)};
 }
+
+/// The transposition back; the fourth double becomes 0.
+DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
+  const auto put = [base, p](int l, int m, Pack pair) DDEM_INLINE_LAMBDA {
+    *reinterpret_cast<Quad*>(base + kQuad * (p + l)) = __builtin_shufflevector(pair, pair, 0, 1, 2, 3);
+    *reinterpret_cast<Quad*>(base + kQuad * (p + m)) = __builtin_shufflevector(pair, pair, 4, 5, 6, 7);
+  };
+  const Pack ab_even = even(t.a, t.b), ab_odd = odd(t.a, t.b), c_even = even(t.c, Pack{}), c_odd = odd(t.c, Pack{});
+  put(0, 2, __builtin_shufflevector(ab_even, c_even, 0, 1, 8, 9, 2, 3, 10, 11));
+  put(4, 6, __builtin_shufflevector(ab_even, c_even, 4, 5, 12, 13, 6, 7, 14, 15));
+  put(1, 3, __builtin_shufflevector(ab_odd, c_odd, 0, 1, 8, 9, 2, 3, 10, 11));
+  put(5, 7, __builtin_shufflevector(ab_odd, c_odd, 4, 5, 12, 13, 6, 7, 14, 15));
+}
 #else
 template <class Disc>
 DDEM_INLINE Triple transpose(Disc disc) {
@@ -58,6 +71,14 @@ DDEM_INLINE Triple transpose(Disc disc) {
     return Pack{disc(0)[k], disc(1)[k], disc(2)[k], disc(3)[k], disc(4)[k], disc(5)[k], disc(6)[k], disc(7)[k]};
   };
   return {component(0), component(1), component(2)};
+}
+DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
+  for (int l = 0; l < kWidth; ++l) {
+    double* disc = base + kQuad * (p + l);
+    disc[0] = t.a[l];
+    disc[1] = t.b[l];
+    disc[2] = t.c[l];
+  }
 }
 #endif
 
@@ -67,15 +88,6 @@ DDEM_INLINE Triple load_triple(const double* base, int p) {
 }
 DDEM_INLINE Triple gather(const double* base, const std::int32_t* disc) {
   return transpose([=](int l) DDEM_INLINE_LAMBDA { return base + kQuad * static_cast<std::ptrdiff_t>(disc[l]); });
-}
-
-DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
-  for (int l = 0; l < kWidth; ++l) {
-    double* disc = base + kQuad * (p + l);
-    disc[0] = t.a[l];
-    disc[1] = t.b[l];
-    disc[2] = t.c[l];
-  }
 }
 
 }  // namespace

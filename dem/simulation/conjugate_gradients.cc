@@ -50,6 +50,7 @@ Stage ConjugateGradients::start() {
   iterations_ = 0;
   square_ = sum(product_);
   target_ = tolerance_ * tolerance_ * sum(scale_);
+  if (square_ < 0.0) return fail(StrainBreakdown::Cause::indefinite);
   // Not a number: the motion has broken down before, and whoever watches it says where.
   return square_ > target_ ? Stage::apply : Stage::motion;
 }

@@ -4,8 +4,9 @@
 // class owns the vectors, sums the inner products (one share a disc, always in the same order, so that the number of
 // threads does not matter) and says which kernel is due.
 //
-// The operator is applied as it stands at the step, so that bonds that open and close fit in; the polynomial cannot have
-// them. In exchange the number of iterations depends on the state, and the energy is conserved to the tolerance only.
+// Slower than the polynomial on every packing and softness measured, and the energy is conserved to the tolerance only:
+// here as an independent check of the polynomial, and because it applies the operator as it stands at the step, which is
+// what contacts that open and close need.
 
 #include <optional>
 

@@ -111,8 +111,8 @@ reports::Section schemes(const CampaignResults& r) {
           .paragraphs = {"The published scheme takes the strains of the discs from the forces of the step before. The lag is a viscosity of first order "
                          "in the step, and it limits how soft the discs may be. Implicit strains belong to the forces of the same step: second order, no "
                          "limit, and with the full (or normal-only-stress) correction an energy that is kept to round-off, for some more time a step. "
-                         "Found by a fixed polynomial they cost the more the softer the discs; conjugate gradients from the strains of the step before "
-                         "then take fewer iterations and keep the energy to their tolerance only."},
+                         "They cost the more the softer the discs. Conjugate gradients from the strains of the step before find the same strains "
+                         "more slowly than the fixed polynomial, and keep the energy to their tolerance only."},
           .figures = {scheme_figure(r.schemes)},
           .tables = {scheme_table(r.schemes)}};
 }

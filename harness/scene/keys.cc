@@ -118,8 +118,8 @@ constexpr KeySpec keys[] = {
     integer("deformation", "evaluations", from(1, 1000), "1", "lagged: force evaluations a step"),
     number("deformation", "relaxation", fraction, "1.0", "lagged: under-relaxation of the particle strains"),
     choice("deformation", "solver", "polynomial | conjugate_gradients", "\"polynomial\"",
-           "implicit: a fixed polynomial, which conserves energy to round-off, or iteration from the strains before, which is "
-           "faster for soft discs (k_n/E_p above 1)"),
+           "implicit: a fixed polynomial, the faster and the one that conserves energy to round-off, or iteration from the "
+           "strains before to a residual, as a check"),
     number("deformation", "tolerance", small_fraction, "2e-4",
            "implicit: largest relative error of the stiffness of any motion (polynomial) or of the strains (conjugate_gradients)"),
     choice("deformation", "correction", "normal | full | normal_only_stress", "\"normal\"",
