@@ -72,6 +72,41 @@ TEST_F(Results, Hdf5HasTheSameSignalsAndItsProvenance) {
   }
 }
 
+TEST_F(Results, Hdf5HasEnergiesAndFields) {
+  write("scene.toml", with_table(small_scene(), "[deformation]\nscheme = \"implicit\"\ncorrection = \"full\"\n"
+                                                "young_modulus = 4e10\npoisson_ratio = 0.3"));
+  ASSERT_EQ(ddem({"run", path("scene.toml"), "-o", path("new.h5"), "--snapshots", "3"}).exit_code, 0);
+  const Hdf5File file = Hdf5File::open(in_folder("new.h5"));
+  const Hdf5Group energy = file.root().group("energy"), fields = file.root().group("fields");
+  const std::size_t samples = energy.read_doubles("time").values.size();
+  EXPECT_GE(samples, 200u);
+  for (const char* name : {"kinetic", "contact", "particle", "invariant"}) {
+    EXPECT_EQ(energy.read_doubles(name).values.size(), samples) << name;
+  }
+  for (const char* name : {"displacement_x", "rotation", "velocity_y", "stress_xy", "strain_xx"}) {
+    EXPECT_EQ(fields.read_doubles(name).shape, (std::vector<std::size_t>{3, 240})) << name;
+  }
+  // The law of the disc ties its strain to its stress: eps_xx = (s_xx - nu s_yy)/E_p, to the tolerance of the strains.
+  const auto xx = fields.read_doubles("stress_xx").values, yy = fields.read_doubles("stress_yy").values,
+             exx = fields.read_doubles("strain_xx").values;
+  double worst = 0.0, largest = 0.0;
+  for (std::size_t k = 0; k < xx.size(); ++k) {
+    worst = std::max(worst, std::abs(exx[k] - (xx[k] - 0.3 * yy[k]) / 4e10));
+    largest = std::max(largest, std::abs(exx[k]));
+  }
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(worst, 1e-2 * largest);
+}
+
+TEST_F(Results, ContactModulusOfEqualDiscsIsAUniformStiffness) {
+  // k_n = E_c 2 r r/(r + r) = E_c r: the same run, but for one rounding of the product.
+  write("uniform.toml", small_scene());
+  write("modulus.toml", replaced(small_scene(), "normal_stiffness = 1e10", "contact_modulus = 1e14"));
+  const Json a = json_of({"run", path("uniform.toml"), "--json"}), b = json_of({"run", path("modulus.toml"), "--json"});
+  EXPECT_NEAR(b["wave_speed"].get<double>() / a["wave_speed"].get<double>(), 1.0, 1e-10);
+  EXPECT_NEAR(b["critical_time_step"].get<double>() / a["critical_time_step"].get<double>(), 1.0, 1e-10);
+}
+
 TEST_F(Results, Hdf5OfARandomPackingHasItsSeed) {
   const std::string scene = std::string(DDEM_SCENES) + "/bar_dem.toml";
   ASSERT_EQ(ddem({"run", scene, "-o", path("new.h5")}).exit_code, 0);
