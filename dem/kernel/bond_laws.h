@@ -23,18 +23,17 @@ DDEM_INLINE BondState bond_at(const StepData& d, int k) {
   return {load(d.nx + k), load(d.ny + k), load(d.arm_own + k), load(d.arm_other + k), Pack{}, Pack{}};
 }
 
-/// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; motions u_x, u_y,
-/// theta of the disc itself and of the other.
+/// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; u: displacement of the
+/// other disc less the own.
 struct LinearKinematics {
   static constexpr bool kLinear = true;
 
   template <bool kRotation>
-  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Triple& own, const Triple& other) {
-    const Vector u{other.a - own.a, other.b - own.b};
+  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack theta_own, Pack theta_other) {
     BondState b = bond_at(d, k);
     b.u_n = b.nx * u.x + b.ny * u.y;
     // The sum of the two rotations first: symmetric in the two ends, so both ends of a bond get the same bits.
-    if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - (b.arm_own * own.c + b.arm_other * other.c);
+    if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - (b.arm_own * theta_own + b.arm_other * theta_other);
     return b;
   }
 };
@@ -45,13 +44,12 @@ struct NonlinearKinematics {
   static constexpr bool kLinear = false;
 
   template <bool kRotation>
-  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Triple& own, const Triple& other) {
-    const Vector u{other.a - own.a, other.b - own.b};
+  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack theta_own, Pack theta_other) {
     BondState b = bond_at(d, k);
     const Pack l0 = load(d.length + k), x0 = l0 * b.nx, y0 = l0 * b.ny;
     const Pack x = x0 + u.x, y = y0 + u.y, l = square_root(x * x + y * y);
     const Pack stretch = l / l0;
-    const Pack rotation = (b.arm_own * own.c + b.arm_other * other.c) / l0;
+    const Pack rotation = (b.arm_own * theta_own + b.arm_other * theta_other) / l0;
     b = {x / l, y / l, b.arm_own * stretch, b.arm_other * stretch, Pack{}, Pack{}};
     // L - L0 without the cancellation.
     b.u_n = (2.0 * (x0 * u.x + y0 * u.y) + (u.x * u.x + u.y * u.y)) / (l + l0);

@@ -46,14 +46,26 @@ struct StepKernel {
   }
 
   DDEM_INLINE static BondState rigid(const StepData& d, int k, const Triple& own) {
-    return Kinematics::template overlaps<kRotation>(d, k, own, gather(d.motion, d.neighbour + k));
+    const Triple other = gather(d.motion, d.neighbour + k);
+    return Kinematics::template overlaps<kRotation>(d, k, {other.a - own.a, other.b - own.b}, own.c, other.c);
   }
 
-  DDEM_INLINE static void correct(const StepData& d, int k, const Triple& own, BondState& b) {
-    if constexpr (kDeformable) {
-      const Vector v = approach(b, own, gather(d.strain, d.neighbour + k));
+  /// Overlaps with the discs' strains. Where both are corrected and the normal stands still, the approach of the boundaries
+  /// is taken from the displacement itself.
+  DDEM_INLINE static BondState deformed(const StepData& d, int k, const Own& own) {
+    if constexpr (!kDeformable) {
+      return rigid(d, k, own.motion);
+    } else if constexpr (Kinematics::kLinear && kRotation && kStrain == StrainCoupling::full) {
+      const Vector v = approach(bond_at(d, k), own.strain, gather(d.strain, d.neighbour + k));
+      const Triple other = gather(d.motion, d.neighbour + k);
+      const Vector u{(other.a - own.motion.a) - v.x, (other.b - own.motion.b) - v.y};
+      return Kinematics::template overlaps<kRotation>(d, k, u, own.motion.c, other.c);
+    } else {
+      BondState b = rigid(d, k, own.motion);
+      const Vector v = approach(b, own.strain, gather(d.strain, d.neighbour + k));
       b.u_n -= b.nx * v.x + b.ny * v.y;
       if constexpr (kRotation && kStrain == StrainCoupling::full) b.u_t -= b.nx * v.y - b.ny * v.x;
+      return b;
     }
   }
 
@@ -118,13 +130,11 @@ struct StepKernel {
   template <bool kForce, bool kStress>
   DDEM_INLINE static auto moved(const StepData& d) {
     return [&d](int k, const Own& own, Sums& sum) DDEM_INLINE_LAMBDA {
-      BondState b = rigid(d, k, own.motion);
-      correct(d, k, own.strain, b);
-      add<kForce, kStress>(d, b, k, sum);
+      add<kForce, kStress>(d, deformed(d, k, own), k, sum);
     };
   }
 
-  /// Under the strains alone: overlaps -G eps, whose stress gives -T eps.
+  /// Under the strains alone: overlaps G eps, whose stress gives T eps.
   DDEM_INLINE static auto strained(const StepData& d) {
     return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
       const BondState b = bond_at(d, k);
@@ -133,9 +143,9 @@ struct StepKernel {
       const Pack k_n = Stiffness::normal(d, k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
         const Pack k_t = Stiffness::shear(d, k), g = (k_n - k_t) * (b.nx * v.x + b.ny * v.y);
-        add_stress(b, -(k_t * v.x + g * b.nx), -(k_t * v.y + g * b.ny), sum);
+        add_stress(b, k_t * v.x + g * b.nx, k_t * v.y + g * b.ny, sum);
       } else {
-        const Pack f_n = -k_n * (b.nx * v.x + b.ny * v.y);
+        const Pack f_n = k_n * (b.nx * v.x + b.ny * v.y);
         add_stress(b, f_n * b.nx, f_n * b.ny, sum);
       }
     };
@@ -179,8 +189,8 @@ struct StepKernel {
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained(d),
         [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple minus_t = strain_from(d, p, sum), rest = difference(load_triple(d.source, p), e);
-          store_triple(d.strain_next, p, along(e, d.relaxation, {rest.a + minus_t.a, rest.b + minus_t.b, rest.c + minus_t.c}));
+          const Triple rest = difference(difference(load_triple(d.source, p), e), strain_from(d, p, sum));
+          store_triple(d.strain_next, p, along(e, d.relaxation, rest));
         });
   }
 
@@ -207,7 +217,7 @@ struct StepKernel {
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained(d),
         [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple q = difference(e, strain_from(d, p, sum));
+          const Triple t = strain_from(d, p, sum), q{e.a + t.a, e.b + t.b, e.c + t.c};
           store_triple(d.applied, p, q);
           store(d.product + p, inner(d, p, e, q));
         });

@@ -113,8 +113,8 @@ reports::Section schemes(const CampaignResults& r) {
                          "limit, and with the full (or normal-only-stress) correction an energy that is kept to round-off, for some more time a step. "
                          "They cost the more the softer the discs. Conjugate gradients from the strains of the step before find the same strains "
                          "more slowly than the fixed polynomial, and keep the energy to their tolerance only."},
-          .figures = {scheme_figure(r.schemes)},
-          .tables = {scheme_table(r.schemes)}};
+          .figures = {scheme_figure(*r.schemes)},
+          .tables = {scheme_table(*r.schemes)}};
 }
 
 reports::Section paper(const CampaignResults& r) {
@@ -139,7 +139,9 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
                                 s.normal_stiffness, s.normal_stiffness / s.particle_modulus, s.particle_poisson_ratio)};
   report.headlines = headlines(r);
   report.verdicts = verdicts;
-  report.sections = {overview(r), waves(r), paper(r), schemes(r)};
+  report.sections = {overview(r), waves(r), paper(r)};
+  if (r.range) report.sections.front().figures.push_back(range_figure(*r.range));
+  if (r.schemes) report.sections.push_back(schemes(r));
   report.provenance = provenance();
   report.provenance.emplace_back("simulations", std::to_string(r.waves.size()));
   report.provenance.emplace_back("finite-element runs", r.fem_failure.empty() ? std::to_string(r.fem.size()) : r.fem_failure);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem/statics/moduli.h"
+#include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/measure/elastic_constants.h"
@@ -109,7 +110,8 @@ struct CampaignResults {
   std::vector<WaveOutcome> waves;
   std::vector<StabilityOutcome> stability;
   std::vector<FemOutcome> fem;
-  SchemeStudy schemes;
+  std::optional<SchemeStudy> schemes;  ///< empty: not asked for
+  std::optional<RangeStudy> range;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;

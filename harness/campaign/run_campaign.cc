@@ -275,8 +275,8 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 
 }  // namespace
 
-std::size_t campaign_work(const StripCampaign& s, bool with_fem) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + kSchemeStudyWork + (with_fem ? fem_outcomes(s).size() : 0);
+std::size_t campaign_work(const StripCampaign& s, const CampaignOptions& options) {
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 1 : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -313,7 +313,10 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
     if (job < fem_jobs) {
       run_all_fem(s, results, options);
     } else if (job < long_jobs) {
+      if (!options.with_studies) return;
       results.schemes = study_schemes(s, [&] { progress(1); });
+      results.range = study_range(s);
+      progress(1);
     } else if (job < long_jobs + lattices.size()) {
       results.stability[job - long_jobs] = release_noise(s, lattices[job - long_jobs], options);
       progress(4);

@@ -33,7 +33,7 @@ reports::Plot reach_panel(const SchemeStudy& study) {
                      .y = {.label = "Poisson's ratio"}};
   reports::Series closed{.name = "closed form", .color = reports::Color::grey};
   for (const ReachCurve& c : study.reach) {
-    reports::Series s{.name = c.scheme + " strains", .kind = reports::SeriesKind::markers, .color = color_of(c.scheme)};
+    reports::Series s{.name = c.scheme + (c.scheme.ends_with("strain") ? " a step" : " strains"), .kind = reports::SeriesKind::markers, .color = color_of(c.scheme)};
     for (const ReachPoint& p : c.points) s.x.push_back(p.softness), s.y.push_back(p.poisson.value_or(kNone));
     plot.series.push_back(s);
   }

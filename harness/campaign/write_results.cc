@@ -149,6 +149,21 @@ void write_schemes(Hdf5Group& parent, const SchemeStudy& study) {
   }
 }
 
+/// softness; for each nu_p the lowest and highest Poisson's ratio, one a softness.
+void write_range(Hdf5Group& parent, const RangeStudy& study) {
+  parent.set_attribute("status", study.failure.empty() ? std::string("ok") : study.failure);
+  set_finite(parent, "rigid_lowest", study.rigid.lowest);
+  set_finite(parent, "rigid_highest", study.rigid.highest);
+  parent.write("softness", study.softness);
+  for (const RangeCurve& c : study.curves) {
+    Hdf5Group g = parent.create_group(fmt::format("particle_poisson_ratio {:g}", c.particle_poisson_ratio));
+    std::vector<double> lowest, highest;
+    for (const PoissonRange& p : c.ranges) lowest.push_back(p.lowest), highest.push_back(p.highest);
+    g.write("lowest", lowest);
+    g.write("highest", highest);
+  }
+}
+
 void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
   AtomicFile atomic(target);
   Hdf5File file = Hdf5File::create(atomic.temporary_path());
@@ -162,8 +177,14 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
     for (const StabilityOutcome& o : r.stability) write_stability(stability, o);
     Hdf5Group fem = root.create_group("finite_elements");
     for (const FemOutcome& f : r.fem) write_fem(fem, f);
-    Hdf5Group schemes = root.create_group("schemes");
-    write_schemes(schemes, r.schemes);
+    if (r.schemes) {
+      Hdf5Group schemes = root.create_group("schemes");
+      write_schemes(schemes, *r.schemes);
+    }
+    if (r.range) {
+      Hdf5Group range = root.create_group("poisson_range");
+      write_range(range, *r.range);
+    }
     Hdf5Group strip = root.create_group("strip");
     strip.write("x", r.picture.packing.x).set_attribute("unit", "m");
     strip.write("y", r.picture.packing.y).set_attribute("unit", "m");

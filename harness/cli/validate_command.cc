@@ -65,7 +65,8 @@ int run(const Options& o) {
   options.jobs = o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   CampaignResults results;
   {
-    Progress progress(campaign_work(campaign, true), "simulations");
+    options.with_studies = o.only.empty() || o.only.starts_with("schemes/");
+    Progress progress(campaign_work(campaign, options), "simulations");
     options.on_progress = [&](std::size_t done) { progress.advance(done); };
     results = run_campaign(campaign, options);
   }

@@ -33,6 +33,7 @@ bool fem_is_built() {
 CampaignOptions options(bool with_fem) {
   CampaignOptions o;
   o.with_fem = with_fem;
+  o.with_studies = false;
   return o;
 }
 
@@ -67,10 +68,15 @@ std::string failures(const Verdicts& verdicts) {
 }
 
 TEST(Campaign, PassesUndisturbed) {
-  const CampaignResults r = run_campaign(reduced(), options(fem_is_built()));
+  CampaignOptions all = options(fem_is_built());
+  all.with_studies = true;
+  const CampaignResults r = run_campaign(reduced(), all);
   const Verdicts verdicts = verdicts_of(r);
   EXPECT_EQ(failures(verdicts), "");
   EXPECT_EQ(r.fem_failure, "");
+  for (const char* study : {"schemes/energy", "schemes/order", "schemes/reach", "schemes/range"}) {
+    EXPECT_FALSE(verdict(verdicts, study).criteria.empty()) << study;
+  }
   // Two models, of each at least: static, lattice, random, the paper's protocol.
   EXPECT_GE(verdicts.size(), 8u);
   for (const reports::Verdict& v : verdicts)
