@@ -57,7 +57,6 @@ Stage ConjugateGradients::start() {
 
 Stage ConjugateGradients::after_advance(StepData& data) {
   const double before = std::exchange(square_, sum(product_));
-  ++all_iterations_;
   if (square_ <= target_) return Stage::motion;
   if (++iterations_ >= kMostIterations || !std::isfinite(square_)) return fail(StrainBreakdown::Cause::not_converged);
   data.direction_weight = square_ / before;

@@ -36,7 +36,6 @@ class ConjugateGradients {
   Stage next(Stage finished, StepData& data);
 
   const std::optional<StrainBreakdown>& breakdown() const { return breakdown_; }
-  long iterations() const { return all_iterations_; }
 
  private:
   Stage start();
@@ -48,8 +47,7 @@ class ConjugateGradients {
   Compliance compliance_;
   double tolerance_ = 0.0;
   double square_ = 0.0, target_ = 0.0;  // <r, r>, and what it must fall to
-  int iterations_ = 0;
-  long all_iterations_ = 0;
+  int iterations_ = 0;  // of this step
   std::optional<StrainBreakdown> breakdown_;
 };
 

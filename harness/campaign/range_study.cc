@@ -35,7 +35,7 @@ RangeStudy study_range(const StripCampaign& s) {
       for (const double softness : study.softness) {
         DeformationParameters discs;
         discs.scheme = Scheme::implicit;
-        discs.correction = ddem::Correction::full;
+        discs.correction = Correction::full;
         discs.young_modulus = s.normal_stiffness / softness;
         discs.poisson_ratio = nu_p;
         curve.ranges.push_back(range(discs));

@@ -63,7 +63,6 @@ struct WaveOutcome {
   bool diverged = false;
   long diverged_step = 0;
   int diverged_disc = 0;
-  std::vector<std::string> warnings;
   std::optional<double> speed, speed_stddev;  ///< m/s, over its pairs of probes
   int good_pairs = 0;
   double static_speed = 0.0, kinematic_speed = 0.0;

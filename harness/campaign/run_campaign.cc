@@ -104,8 +104,10 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
   try {
     Scene scene = scene_of(out.scene, id_of(c));
     if (options.disturb_scene) options.disturb_scene(scene);
-    const DemRun run = run_scene(scene, {out.static_speed, {}});
-    out.warnings = run.warnings;
+    RunOptions run_options;
+    run_options.expected_speed = out.static_speed;
+    run_options.warn = false;
+    const DemRun run = run_scene(scene, run_options);
     out.time_step = run.time_step;
     out.critical_time_step = run.critical_time_step;
     out.steps = run.result.steps_done;

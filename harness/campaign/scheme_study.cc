@@ -22,8 +22,8 @@ constexpr long kEnergySteps = 10000;
 constexpr std::size_t kFirstSample = 4;  // of 200: step 200
 constexpr double kSoftest = 10.0;    // k_n/E_p of the reach curves
 
-ddem::DeformationParameters strains(const StripCampaign& s, Scheme scheme, ddem::Correction correction, double softness) {
-  ddem::DeformationParameters d;
+DeformationParameters strains(const StripCampaign& s, Scheme scheme, Correction correction, double softness) {
+  DeformationParameters d;
   d.scheme = scheme;
   d.correction = correction;
   d.young_modulus = s.normal_stiffness / softness;
@@ -57,24 +57,27 @@ std::vector<EnergyCurve> energy_curves(const StripCampaign& s) {
   const StripCase c{StripPacking::random, s.seeds.front(), Model::dem, 0.5, Protocol::paper, StripWave::bar};
   const ddem::Assembly a = build_assembly(scene_of(assembly_text(s, c, false), "energy"));
   const double softness = s.normal_stiffness / s.particle_modulus;
-  const StudiedScheme rigid{"DEM", {}}, lagged{"lagged F", strains(s, Scheme::lagged, ddem::Correction::full, softness)},
-      implicit{"implicit F", strains(s, Scheme::implicit, ddem::Correction::full, softness)};
+  const StudiedScheme rigid{"DEM", {}}, lagged{"lagged F", strains(s, Scheme::lagged, Correction::full, softness)},
+      implicit{"implicit F", strains(s, Scheme::implicit, Correction::full, softness)};
   StudiedScheme gradients{"implicit F, conjugate gradients", implicit.deformation};
-  gradients.deformation.solver = ddem::StrainSolver::conjugate_gradients;
+  gradients.deformation.solver = StrainSolver::conjugate_gradients;
   return {follow_energy(a, s, rigid, 0.2), follow_energy(a, s, lagged, 0.2), follow_energy(a, s, lagged, 0.05),
           follow_energy(a, s, implicit, 0.2), follow_energy(a, s, gradients, 0.2)};
 }
 
 /// The campaign's driven pulse in the lattice, P and shear.
 std::optional<double> reached_poisson(const StripCampaign& s, const IsotropicModuli& closed, double density,
-                                      const std::function<void(Deformation&)>& set_scheme) {
+                                      const std::function<void(DeformationParameters&)>& set_scheme) {
   std::optional<double> speed[2];
   for (const StripWave wave : {StripWave::shear, StripWave::p}) {
     const bool shear = wave == StripWave::shear;
     const double expected = std::sqrt((shear ? closed.shear : closed.bulk + closed.shear) / density);
     Scene scene = scene_of(scene_text(s, {StripPacking::hexagonal, 0, Model::implicit_full, 0.0, Protocol::long_wave, wave}, expected), "reach");
     set_scheme(scene.deformation.value());
-    const DemRun run = run_scene(scene, {expected, {}});
+    RunOptions run_options;
+    run_options.expected_speed = expected;
+    run_options.warn = false;
+    const DemRun run = run_scene(scene, run_options);
     if (run.result.breakdown || !run.measurement || !run.measurement->speed.speed.ok()) return std::nullopt;
     speed[shear ? 0 : 1] = run.measurement->speed.speed.value().mean;
   }
@@ -90,18 +93,18 @@ std::vector<ReachCurve> reach_curves(StripCampaign s, double poisson_ratio) {
                                                                    {s.normal_stiffness, 0.0}, {{s.particle_modulus, poisson_ratio}, 1.0});
     const IsotropicModuli closed{m.bulk, m.shear};
     const double density = s.density * references::hexagonal_fabric().solid_fraction;
-    const auto add = [&](ReachCurve& curve, DeformationScheme scheme, double relaxation) {
+    const auto add = [&](ReachCurve& curve, Scheme scheme, double relaxation) {
       curve.points.push_back({softness,
                               reached_poisson(s, closed, density,
-                                              [&](Deformation& d) {
+                                              [&](DeformationParameters& d) {
                                                 d.scheme = scheme;
                                                 d.relaxation = relaxation;
                                               }),
                               closed.poisson()});
     };
-    add(lagged, DeformationScheme::lagged, 1.0);
-    add(relaxed, DeformationScheme::lagged, 0.5);
-    add(implicit, DeformationScheme::implicit, 1.0);
+    add(lagged, Scheme::lagged, 1.0);
+    add(relaxed, Scheme::lagged, 0.5);
+    add(implicit, Scheme::implicit, 1.0);
   }
   return {implicit, relaxed, lagged};
 }
@@ -137,9 +140,9 @@ OrderCurve order_of(const StripCampaign& s, const StudiedScheme& scheme) {
 
 std::vector<OrderCurve> order_curves(const StripCampaign& s) {
   const double softness = s.normal_stiffness / s.particle_modulus;
-  StudiedScheme implicit{"implicit", strains(s, Scheme::implicit, ddem::Correction::full, softness)};
+  StudiedScheme implicit{"implicit", strains(s, Scheme::implicit, Correction::full, softness)};
   implicit.deformation.tolerance = 1e-8;  // the stiffness itself is not what is measured here
-  return {order_of(s, {"DEM", {}}), order_of(s, {"lagged", strains(s, Scheme::lagged, ddem::Correction::full, softness)}), order_of(s, implicit)};
+  return {order_of(s, {"DEM", {}}), order_of(s, {"lagged", strains(s, Scheme::lagged, Correction::full, softness)}), order_of(s, implicit)};
 }
 
 }  // namespace

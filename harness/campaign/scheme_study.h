@@ -15,7 +15,7 @@ namespace ddem::harness {
 /// A scheme of the study.
 struct StudiedScheme {
   std::string name;
-  ddem::DeformationParameters deformation;
+  DeformationParameters deformation;
 };
 
 /// The energy of a free strip that starts from rest with u_x = A cos(pi x / L), over that of step 200.

@@ -197,7 +197,7 @@ ContactParameters contact_parameters(const Scene& scene) {
   const Contact& c = scene.contact.value();
   ContactParameters p;
   p.stiffness_ratio = c.stiffness_ratio;
-  p.kinematics = c.kinematics == Kinematics::linear ? ddem::Kinematics::linear : ddem::Kinematics::nonlinear;
+  p.kinematics = c.kinematics;
   if (const auto* modulus = std::get_if<ContactModulus>(&c.stiffness)) {
     p.contact_modulus = modulus->pascal;
   } else {
@@ -206,24 +206,7 @@ ContactParameters contact_parameters(const Scene& scene) {
   return p;
 }
 
-DeformationParameters deformation_parameters(const Scene& scene) {
-  if (!scene.deformation) return {};
-  const Deformation& d = *scene.deformation;
-  DeformationParameters p;
-  p.scheme = d.scheme == DeformationScheme::implicit ? Scheme::implicit : Scheme::lagged;
-  p.evaluations = static_cast<int>(d.evaluations);
-  p.relaxation = d.relaxation;
-  p.tolerance = d.tolerance;
-  p.solver = d.solver == StrainSolver::polynomial ? ddem::StrainSolver::polynomial : ddem::StrainSolver::conjugate_gradients;
-  p.volume = d.volume == ParticleVolume::disc ? ddem::ParticleVolume::disc : ddem::ParticleVolume::cell;
-  p.correction = d.correction == Correction::normal ? ddem::Correction::normal
-                 : d.correction == Correction::full ? ddem::Correction::full
-                                                    : ddem::Correction::normal_only_stress;
-  p.young_modulus = d.young_modulus;
-  p.poisson_ratio = d.poisson_ratio;
-  p.plane = d.plane == Plane::stress ? ddem::Plane::stress : ddem::Plane::strain;
-  return p;
-}
+DeformationParameters deformation_parameters(const Scene& scene) { return scene.deformation.value_or(DeformationParameters{}); }
 
 double edge_band(const Scene& scene, const ddem::Assembly& assembly) {
   return scene.assembly.edge_band * mean_radius(assembly.packing);

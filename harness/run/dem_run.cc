@@ -92,9 +92,9 @@ void warn_of_instability(const Scene& scene, DemRun& run) {
     run.warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g} times what it may "
                                        "be; stiffen the discs (young_modulus) by that factor, or use scheme = \"implicit\"",
                                        radius));
-  } else if (d.evaluations == 1 && d.relaxation == 1.0 && (d.correction != ddem::Correction::normal || scene.contact->stiffness_ratio == 0.0)) {
+  } else if (d.evaluations == 1 && d.relaxation == 1.0 && (d.correction != Correction::normal || scene.contact->stiffness_ratio == 0.0)) {
     DeformationParameters symmetric = d;
-    if (scene.contact->stiffness_ratio == 0.0) symmetric.correction = ddem::Correction::normal_only_stress;
+    if (scene.contact->stiffness_ratio == 0.0) symmetric.correction = Correction::normal_only_stress;
     const double limit = flip_limit_step(run.assembly, contact_parameters(scene), symmetric, held_dofs(scene, run.assembly));
     if (run.time_step > limit) {
       run.warnings.push_back(fmt::format("the lagged scheme is unstable at this step: its limit is {:.4g} s, {:.3g} of the "
@@ -146,7 +146,7 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
   in.steps = choose_steps(scene, run);
   check_signal_size(scene, run, static_cast<double>(in.steps));
-  warn_of_instability(scene, run);
+  if (options.warn) warn_of_instability(scene, run);
 
   run.result = simulate(run.assembly, in);
   if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {

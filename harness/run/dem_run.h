@@ -28,8 +28,9 @@ struct RunOptions {
   /// The static speed where the caller knows it (m/s): narrows the windows and the run time. Else the kinematic estimate.
   std::optional<double> expected_speed;
   std::function<bool(double)> on_progress;
-  int energy_samples = 50;  ///< of the energies over time
+  int energy_samples = 8;   ///< of the energies over time: enough for their drift, and an audit costs as much as ten steps
   int snapshots = 0;        ///< of all discs, over the run
+  bool warn = true;         ///< of instability that theory predicts; costs more than a short run
 };
 
 /// What happened, for people: "the run diverged", and what to do about it.

@@ -14,9 +14,9 @@ namespace {
 references::ContactModel contact_model(const DeformationParameters& d) {
   if (!d.active()) return references::ContactModel::dem;
   switch (d.correction) {
-    case ddem::Correction::normal: return references::ContactModel::ddem_normal;
-    case ddem::Correction::full: return references::ContactModel::ddem_full;
-    case ddem::Correction::normal_only_stress: return references::ContactModel::ddem_normal_only_stress;
+    case Correction::normal: return references::ContactModel::ddem_normal;
+    case Correction::full: return references::ContactModel::ddem_full;
+    case Correction::normal_only_stress: return references::ContactModel::ddem_normal_only_stress;
   }
   return references::ContactModel::dem;
 }
@@ -98,12 +98,12 @@ references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembl
   references::Disc disc;
   disc.thickness = a.thickness;
   if (deformation.active()) {
-    disc.material = deformation.plane == ddem::Plane::strain
+    disc.material = deformation.plane == Plane::strain
                         ? references::plane_strain_constants(deformation.young_modulus, deformation.poisson_ratio)
                         : references::PlaneConstants{deformation.young_modulus, deformation.poisson_ratio};
   }
   references::Fabric fabric = references::random_fabric(a.bonds.length, a.packing.radius, a.area());
-  if (deformation.volume == ddem::ParticleVolume::cell) fabric.solid_fraction = 1.0;  // the cells fill the assembly
+  if (deformation.volume == ParticleVolume::cell) fabric.solid_fraction = 1.0;  // the cells fill the assembly
   return references::effective_moduli(contact_model(deformation), fabric, {mean_normal_stiffness(a, contact), contact.stiffness_ratio},
                                       disc);
 }

@@ -81,7 +81,7 @@ void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParame
   if (a.size() <= kLargestFlutterSearch && !hexagonal) s.flutter = find_flutter(a, contact, s.deformation, held);
   SimulationInput in;
   in.contact = contact;
-  in.contact.kinematics = ddem::Kinematics::linear;
+  in.contact.kinematics = Kinematics::linear;
   in.deformation = s.deformation;
   in.held = held;
   in.time_step = s.time_step;
@@ -91,7 +91,7 @@ void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParame
 }  // namespace
 
 bool SceneStability::has_energy() const {
-  return !deformation.active() || stiffness_ratio == 0.0 || deformation.correction != ddem::Correction::normal;
+  return !deformation.active() || stiffness_ratio == 0.0 || deformation.correction != Correction::normal;
 }
 
 std::vector<std::string> SceneStability::instabilities() const {

@@ -14,11 +14,11 @@ const char* name(Scheme scheme) {
   return "";
 }
 
-const char* name(ddem::Correction correction) {
+const char* name(Correction correction) {
   switch (correction) {
-    case ddem::Correction::normal: return "normal";
-    case ddem::Correction::full: return "full";
-    case ddem::Correction::normal_only_stress: return "normal_only_stress";
+    case Correction::normal: return "normal";
+    case Correction::full: return "full";
+    case Correction::normal_only_stress: return "normal_only_stress";
   }
   return "";
 }

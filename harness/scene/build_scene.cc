@@ -77,17 +77,17 @@ Contact build_contact(const Values& values) {
   return contact;
 }
 
-Deformation build_deformation(const Values& values) {
-  Deformation deformation;
-  deformation.scheme = values.choice<DeformationScheme>("deformation.scheme");
-  deformation.evaluations = values.integer("deformation.evaluations");
-  deformation.relaxation = values.number("deformation.relaxation");
-  deformation.solver = values.choice<StrainSolver>("deformation.solver");
-  deformation.tolerance = values.number("deformation.tolerance");
+DeformationParameters build_deformation(const Values& values) {
+  DeformationParameters deformation;
+  deformation.scheme = values.choice<Scheme>("deformation.scheme");
   deformation.correction = values.choice<Correction>("deformation.correction");
   deformation.young_modulus = values.number("deformation.young_modulus");
   deformation.poisson_ratio = values.number("deformation.poisson_ratio");
   deformation.plane = values.choice<Plane>("deformation.plane");
+  deformation.evaluations = static_cast<int>(values.integer("deformation.evaluations"));
+  deformation.relaxation = values.number("deformation.relaxation");
+  deformation.tolerance = values.number("deformation.tolerance");
+  deformation.solver = values.choice<StrainSolver>("deformation.solver");
   deformation.volume = values.choice<ParticleVolume>("deformation.particle_volume");
   return deformation;
 }

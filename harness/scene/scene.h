@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "dem/core/material.h"
+
 namespace ddem::harness {
 
 // The enumerators stand in the order of the choices in keys.cc.
@@ -83,7 +85,6 @@ struct ContactModulus {
   double pascal = 0.0;  ///< k_n of a bond in proportion to its size
 };
 
-enum class Kinematics { linear, nonlinear };
 enum class NewContacts { automatic, off };
 
 struct Contact {
@@ -91,25 +92,6 @@ struct Contact {
   double stiffness_ratio = 0.0;  ///< k_t / k_n
   Kinematics kinematics = Kinematics::linear;
   NewContacts new_contacts = NewContacts::automatic;
-};
-
-enum class DeformationScheme { none, lagged, implicit };
-enum class Correction { normal, full, normal_only_stress };
-enum class Plane { stress, strain };
-enum class StrainSolver { polynomial, conjugate_gradients };
-enum class ParticleVolume { disc, cell };
-
-struct Deformation {
-  DeformationScheme scheme = DeformationScheme::lagged;  ///< never none: that is a scene without deformation
-  std::int64_t evaluations = 1;                          ///< of the forces, per step
-  double relaxation = 1.0;
-  StrainSolver solver = StrainSolver::polynomial;  ///< implicit
-  double tolerance = 2e-4;  ///< implicit: of the stiffness, or of the strains
-  Correction correction = Correction::normal;
-  double young_modulus = 0.0;  ///< of the disc, Pa
-  double poisson_ratio = 0.0;  ///< of the disc
-  Plane plane = Plane::stress;
-  ParticleVolume volume = ParticleVolume::disc;
 };
 
 enum class Edge { free, fixed_x, fixed };
@@ -211,7 +193,7 @@ struct Scene {
   Assembly assembly;
   std::optional<Material> material;        ///< set wherever discs are more than a packing (see Purpose)
   std::optional<Contact> contact;          ///< likewise
-  std::optional<Deformation> deformation;  ///< none: plain DEM
+  std::optional<DeformationParameters> deformation;  ///< none: plain DEM; its scheme is never Scheme::none
   Boundary boundary;
   Load load;
   std::optional<Continuum> continuum;

@@ -27,7 +27,7 @@ struct Case {
 
 class Dispersion : public testing::TestWithParam<Case> {};
 
-const DeformationParameters kImplicit{Scheme::implicit, ddem::Correction::full, 4e10, 0.3, ddem::Plane::stress};
+const DeformationParameters kImplicit{Scheme::implicit, Correction::full, 4e10, 0.3, Plane::stress};
 
 INSTANTIATE_TEST_SUITE_P(Runs, Dispersion,
                          testing::Values(Case{"dem_p", true, 0.0, {}}, Case{"dem_shear", false, 0.0, {}},
@@ -42,7 +42,7 @@ TEST_P(Dispersion, RidgesLieOnTheBranches) {
   const Assembly a = ddem::test::hexagonal_assembly({.close_packed = packings::CloseRows::along_y, .columns = kColumns, .rows = kRows,
                                                      .radius = kRadius, .periodic_y = true});
   SimulationInput in;
-  in.contact = {1e10, c.lambda, ddem::Kinematics::linear};
+  in.contact = {1e10, c.lambda, Kinematics::linear};
   in.deformation = c.deformation;
   in.time_step = 0.1 * 2.0 / largest_frequency(a, in.contact, {});
   in.steps = 12000;

@@ -48,7 +48,7 @@ double mean(const WaveSpeed& speed) {
 double closed_form_speed(const StripCampaign& s, const StripCase& c) {
   const IsotropicModuli m =
       test::closed_form({law_of(c.model), s.normal_stiffness, c.stiffness_ratio, s.particle_modulus,
-                         s.particle_poisson_ratio, ddem::Plane::stress, 1.0});
+                         s.particle_poisson_ratio, Plane::stress, 1.0});
   const double density = s.density * references::hexagonal_fabric().solid_fraction;
   return std::sqrt((c.wave == StripWave::p ? m.bulk + m.shear : m.shear) / density);
 }

@@ -24,7 +24,7 @@ TEST(ExampleScenes, ShearDdem) {
   const Scene scene = example("shear_ddem.toml", Purpose::simulation);
   EXPECT_TRUE(scene.assembly.periodic.y);
   ASSERT_TRUE(scene.deformation);
-  EXPECT_EQ(scene.deformation->scheme, DeformationScheme::lagged);
+  EXPECT_EQ(scene.deformation->scheme, Scheme::lagged);
   EXPECT_EQ(std::get<NormalStiffness>(scene.contact->stiffness).k_n / scene.deformation->young_modulus, 0.25);
 }
 

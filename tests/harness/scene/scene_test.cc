@@ -33,7 +33,7 @@ TEST(Scene, ReadsEveryKeyOfAFullScene) {
   EXPECT_EQ(scene.contact->stiffness_ratio, 0.35);
   EXPECT_EQ(scene.contact->kinematics, Kinematics::nonlinear);
   EXPECT_EQ(scene.contact->new_contacts, NewContacts::off);
-  EXPECT_EQ(scene.deformation->scheme, DeformationScheme::lagged);
+  EXPECT_EQ(scene.deformation->scheme, Scheme::lagged);
   EXPECT_EQ(scene.deformation->evaluations, 1);
   EXPECT_EQ(scene.deformation->relaxation, 1.0);
   EXPECT_EQ(scene.deformation->correction, Correction::normal_only_stress);
@@ -97,7 +97,7 @@ TEST(Scene, HasTheDefaultsOfTheReference) {
   EXPECT_EQ(scene.run.threads, 1);
 
   const Scene deformable = good(small_scene() + "[deformation]\nyoung_modulus = 4e10\npoisson_ratio = 0.3\n");
-  EXPECT_EQ(deformable.deformation->scheme, DeformationScheme::lagged);
+  EXPECT_EQ(deformable.deformation->scheme, Scheme::lagged);
   EXPECT_EQ(deformable.deformation->correction, Correction::normal);
   EXPECT_EQ(deformable.deformation->plane, Plane::stress);
   const Scene continuum = good(small_scene() + "[continuum]\n");
