@@ -285,7 +285,7 @@ TEST(Reciprocity, HoldsForSymmetricSchemesOnly) {
       // Conjugate gradients are symmetric up to their residual, here 1e-10 of the strains.
       EXPECT_LT(violation, m.deformation.solver == StrainSolver::polynomial ? 1e-11 : 1e-9) << m.name;
     } else {
-      EXPECT_GT(violation, 1e-3) << m.name;
+      EXPECT_GT(violation, 1e-2) << m.name;  // by per cents: 8 % lagged, 9 % implicit
     }
   }
 }

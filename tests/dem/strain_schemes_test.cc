@@ -97,6 +97,24 @@ TEST(ImplicitStrains, SayWhereTheyFail) {
   EXPECT_EQ(indefinite->cause, Breakdown::Cause::strains_indefinite);
 }
 
+TEST(ImplicitStrains, BothSolversGiveTheSameMotion) {
+  // To 1e-10 of the stiffness and of the strains; 500 steps from noise add some hundred times that.
+  const Assembly a = test::random_free_strip();
+  for (const double softness : {0.25, 5.0}) {
+    DeformationParameters d{Scheme::implicit, Correction::full, kNormalStiffness / softness, 0.3, Plane::stress};
+    d.tolerance = 1e-10;
+    const std::vector<double> polynomial = simulate(a, noise_input(a, d, 0.3, 500)).final_state.ux;
+    d.solver = StrainSolver::conjugate_gradients;
+    const std::vector<double> gradients = simulate(a, noise_input(a, d, 0.3, 500)).final_state.ux;
+    double difference = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      difference = std::max(difference, std::abs(polynomial[k] - gradients[k]));
+      size = std::max(size, std::abs(polynomial[k]));
+    }
+    EXPECT_LT(difference / size, 1e-8) << softness;
+  }
+}
+
 TEST(ImplicitStrains, IterationThatStallsIsAStatus) {
   // The class alone, with products as a kernel would leave them: the residual never falls.
   ConjugateGradients gradients(AlignedVector<double>(kLanes, 1.0), {1.0, -0.3, 1.3}, 1e-8);
