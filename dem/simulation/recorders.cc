@@ -51,6 +51,7 @@ void EnergyRecorder::after_step() {
   const long n = stepper_.step();
   const bool first_undriven = !reference_ && n >= undriven_;
   if (!active_ || !(first_undriven || n % every_ == 0 || n == last_)) return;
+  const Stopwatch watch(seconds_);
   const StepData& d = stepper_.data();
   const Energies e = audit_.energies(motion_before(d), motion_after(d), stepper_.velocities(), stepper_.strains_in_use());
   samples_.push_back({static_cast<double>(n - 1) * time_step_, e});
@@ -73,6 +74,7 @@ void SnapshotRecorder::after_step() {
   // Snapshot k of m comes after step k steps / m.
   const long taken = static_cast<long>(snapshots_.size());
   if (taken >= input_.snapshots || stepper_.step() * input_.snapshots < (taken + 1) * input_.steps) return;
+  const Stopwatch watch(seconds_);
   const StepData& d = stepper_.data();
   const MotionView u = motion_before(d);
   const StrainView e = stepper_.strains_in_use();

@@ -2,6 +2,7 @@
 // What a run keeps: signals of receivers, energies, and now and then all discs. Each looks at the stepper after a step,
 // which then holds u_{n+1} in the current buffers and u_n in the others.
 
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,19 @@
 #include "dem/simulation/stepper.h"
 
 namespace ddem {
+
+/// Adds the time until its end to a sum: what looking at a run costs is not what the run costs.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 class SignalRecorder {
  public:
@@ -29,6 +43,7 @@ class EnergyRecorder {
   EnergyRecorder(const Assembly& assembly, const SimulationInput& input, const Stepper& stepper);
   void after_step();
   std::optional<double> drift() const;
+  double seconds() const { return seconds_; }
   std::vector<EnergySample> take() { return std::move(samples_); }
 
  private:
@@ -38,7 +53,7 @@ class EnergyRecorder {
   bool active_ = false;
   long every_ = 1, last_ = 0, undriven_ = 1;
   std::optional<double> reference_;
-  double drift_ = 0.0;
+  double drift_ = 0.0, seconds_ = 0.0;
   std::vector<EnergySample> samples_;
 };
 
@@ -46,12 +61,14 @@ class SnapshotRecorder {
  public:
   SnapshotRecorder(const Assembly& assembly, const SimulationInput& input, const Stepper& stepper);
   void after_step();
+  double seconds() const { return seconds_; }
   std::vector<Snapshot> take() { return std::move(snapshots_); }
 
  private:
   StateAudit audit_;
   const SimulationInput& input_;
   const Stepper& stepper_;
+  double seconds_ = 0.0;
   std::vector<Snapshot> snapshots_;
 };
 

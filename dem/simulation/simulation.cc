@@ -97,6 +97,7 @@ class Overseer {
     result_.energy_drift = energies_.drift();
     result_.energy = energies_.take();
     result_.snapshots = snapshots_.take();
+    result_.wall_seconds -= energies_.seconds() + snapshots_.seconds();
     result_.steps_done = stepper_.step();
     result_.final_state = stepper_.state();
   }

@@ -88,7 +88,7 @@ struct SimulationResult {
   std::optional<Breakdown> breakdown;  ///< set: the run stopped there, its signals end before
   bool stopped = false;                  ///< on_progress asked for it
   long steps_done = 0;
-  double wall_seconds = 0.0;  ///< of the time loop
+  double wall_seconds = 0.0;  ///< of the time loop, without energies and snapshots
   /// Largest relative deviation of the leapfrog invariant (see audit.h) from its first value, from the end of the drive
   /// on. Empty for nonlinear kinematics, which has no such invariant.
   std::optional<double> energy_drift;
