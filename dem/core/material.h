@@ -43,7 +43,7 @@ enum class ParticleVolume {
 
 /// How implicit strains are found.
 enum class StrainSolver {
-  polynomial,          ///< Chebyshev, of fixed degree: symmetric, so that energy is conserved to round-off
+  polynomial,          ///< of fixed degree: symmetric, so that energy is conserved to round-off
   conjugate_gradients  ///< from the strains of the step before, to a residual: fewer iterations for soft discs
 };
 
@@ -55,9 +55,9 @@ struct DeformationParameters {
   Plane plane = Plane::stress;
   int evaluations = 1;       ///< lagged: force evaluations a step
   double relaxation = 1.0;   ///< lagged: weight of the new strain, the rest is that before
-  /// implicit: largest relative error of a stiffness against the converged one (polynomial), or of the strains'
-  /// residual (conjugate gradients).
-  double tolerance = 2e-4;
+  /// implicit: largest relative error of the moduli against converged strains, and a hundredth of that of any stiffness,
+  /// which never exceeds 0.01 (polynomial); or of the strains' residual (conjugate gradients).
+  double tolerance = 1e-4;
   StrainSolver solver = StrainSolver::polynomial;
   ParticleVolume volume = ParticleVolume::disc;
 

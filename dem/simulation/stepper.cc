@@ -6,7 +6,6 @@
 
 #include "dem/assembly/bond_stiffness.h"
 #include "dem/assembly/particle_volume.h"
-#include "dem/spectra/spectra.h"
 
 namespace ddem {
 namespace {
@@ -100,9 +99,7 @@ void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
   } else if (deformation.solver == StrainSolver::conjugate_gradients) {
     gradients_.emplace(std::move(ordered), c, deformation.tolerance);
   } else {
-    // Lanczos finds the radius to 1e-5 or better; beyond the interval the iteration would grow.
-    const double radius = fixed_point_radius(a, input.contact, deformation);
-    relaxations_ = strain_relaxations(radius * (1.0 + 1e-3), deformation.tolerance);
+    relaxations_ = strain_relaxations(strain_spectrum(a, input.contact, deformation), deformation.tolerance);
     strain_stages_ = static_cast<int>(relaxations_.size());
   }
 }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "dem/spectra/extreme_eigenvalues.h"
+
 namespace ddem {
 namespace {
 
@@ -72,6 +74,10 @@ StrainIteration::StrainIteration(const Operators& op) : coupling_(strain_couplin
 Eigen::VectorXd StrainIteration::apply(const Eigen::VectorXd& x) const {
   const Eigen::VectorXd y = coupling_ * factor_.matrixU().solve(x);
   return factor_.matrixL().solve(y);
+}
+
+double spectral_radius(const StrainIteration& t) {
+  return largest_eigenvalue({t.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return t.apply(x); }}, "fixed-point radius");
 }
 
 SchemeStiffness SchemeStiffness::converged(const Operators& op) {

@@ -57,4 +57,7 @@ class StrainIteration {
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;  // 3 x 3 blocks
 };
 
+/// Of T: the lagged strains converge where it is below 2/w - 1.
+double spectral_radius(const StrainIteration& t);
+
 }  // namespace ddem

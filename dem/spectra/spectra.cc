@@ -20,11 +20,6 @@ double largest_frequency_of(const Operators& op, const SchemeStiffness& stiffnes
   return std::sqrt(op.symmetric ? largest_eigenvalue(scaled, what) : largest_magnitude(scaled, what));
 }
 
-double radius_of(const Operators& op) {
-  const StrainIteration t(op);
-  return largest_eigenvalue({t.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return t.apply(x); }}, "fixed-point radius");
-}
-
 /// r = 1 - w - w b is negative for the largest b: an even number of evaluations then ends beyond the converged strain.
 bool feeds(const DeformationParameters& d, double radius) {
   return d.evaluations % 2 == 0 && radius > (1.0 - d.relaxation) / d.relaxation;
@@ -49,13 +44,13 @@ double largest_converged_frequency(const Assembly& a, const ContactParameters& c
 
 double fixed_point_radius(const Assembly& a, const ContactParameters& contact,
                           const DeformationParameters& deformation) {
-  return radius_of(make_operators(a, contact, deformation));
+  return spectral_radius(StrainIteration(make_operators(a, contact, deformation)));
 }
 
 double flip_limit_step(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
                        const HeldDofs& held) {
   const Operators op = make_operators(a, contact, deformation);
-  return 2.0 / largest_frequency_of(op, SchemeStiffness::flip(op, deformation, radius_of(op)), held, "flip limit");
+  return 2.0 / largest_frequency_of(op, SchemeStiffness::flip(op, deformation, spectral_radius(StrainIteration(op))), held, "flip limit");
 }
 
 CriticalStep critical_step(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,

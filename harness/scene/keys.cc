@@ -120,8 +120,9 @@ constexpr KeySpec keys[] = {
     choice("deformation", "solver", "polynomial | conjugate_gradients", "\"polynomial\"",
            "implicit: a fixed polynomial, the faster and the one that conserves energy to round-off, or iteration from the "
            "strains before to a residual, as a check"),
-    number("deformation", "tolerance", small_fraction, "2e-4",
-           "implicit: largest relative error of the stiffness of any motion (polynomial) or of the strains (conjugate_gradients)"),
+    number("deformation", "tolerance", small_fraction, "1e-4",
+           "implicit: largest relative error of the moduli, and a hundredth of that of any motion's stiffness (polynomial), or of "
+           "the strains (conjugate_gradients)"),
     choice("deformation", "correction", "normal | full | normal_only_stress", "\"normal\"",
            "N (published): normal overlaps; F: also slips; NN: stress from normal forces"),
     quantity("deformation", "young_modulus", stress, positive, no_default, "of the disc"),

@@ -31,11 +31,14 @@ Errors errors_of(const std::vector<double>& weights, double rho) {
   return e;
 }
 
+/// Nothing known of long waves.
+StrainSpectrum spectrum(double rho) { return {rho, {}}; }
+
 TEST(StrainPolynomial, MeetsTheToleranceWithNoTermTooMany) {
   for (const double rho : {0.01, 0.334, 1.0, 7.0, 134.0}) {
     std::size_t before = std::numeric_limits<std::size_t>::max();
     for (const double tolerance : {1e-8, 1e-4, 1e-2}) {
-      const std::vector<double> weights = strain_relaxations(rho, tolerance);
+      const std::vector<double> weights = strain_relaxations(spectrum(rho), tolerance);
       const Errors e = errors_of(weights, rho);
       // Round-off grows with the stiffness ratio.
       EXPECT_LE(e.stiffness, tolerance + 1e-13 * (1.0 + rho)) << rho << " " << tolerance;
@@ -54,16 +57,36 @@ TEST(StrainPolynomial, MeetsTheToleranceWithNoTermTooMany) {
 
 TEST(StrainPolynomial, FewTermsForUsualDiscs) {
   // k_n/E_p = 0.25, nu_p = 0.3 on the lattice: rho = 0.334. A polynomial that bounds r instead of t r takes four terms.
-  EXPECT_EQ(strain_relaxations(0.334, 1e-4).size(), 3u);
-  EXPECT_EQ(strain_relaxations(0.0, 1e-4), std::vector<double>{1.0});
+  EXPECT_EQ(strain_relaxations(spectrum(0.334), 1e-4).size(), 3u);
+  EXPECT_EQ(strain_relaxations(spectrum(0.0), 1e-4), std::vector<double>{1.0});
+}
+
+TEST(StrainPolynomial, ExactForTheModesOfALattice) {
+  // Dilation excites one mode, shear another: two terms, and no error in the moduli.
+  const double dilation = 0.334, shear = 0.466;
+  const StrainSpectrum lattice{shear, {{{dilation}, {0.3}}, {{shear}, {0.5}}, {{shear}, {0.5}}}};
+  const std::vector<double> weights = strain_relaxations(lattice, 1e-4);
+  ASSERT_EQ(weights.size(), 2u);
+  EXPECT_NEAR(std::min(weights[0], weights[1]), 1.0 / (1.0 + shear), 1e-13);
+  EXPECT_NEAR(std::max(weights[0], weights[1]), 1.0 / (1.0 + dilation), 1e-13);
+  EXPECT_LE(errors_of(weights, shear).stiffness, 0.01);
+  // A tighter tolerance binds the other motions to a hundred times itself, which two terms do not keep.
+  EXPECT_GT(strain_relaxations(lattice, 1e-6).size(), 2u);
+  EXPECT_LE(errors_of(strain_relaxations(lattice, 1e-6), shear).stiffness, 1e-4);
+}
+
+TEST(StrainPolynomial, SoftDiscsKeepTheirShortWavesStable) {
+  // k_n/E_p = 10: zeros at the two modes alone would make other motions wrong by more than their own stiffness.
+  const StrainSpectrum lattice{18.6, {{{13.4}, {3.0}}, {{18.6}, {5.0}}, {{18.6}, {5.0}}}};
+  EXPECT_LE(errors_of(strain_relaxations(lattice, 1e-4), 18.6).stiffness, 1e-4 + 1e-13);
 }
 
 TEST(StrainPolynomial, RefusesWhatHasNoMeaning) {
-  EXPECT_THROW(strain_relaxations(-1.0, 1e-4), std::invalid_argument);
-  EXPECT_THROW(strain_relaxations(std::numeric_limits<double>::quiet_NaN(), 1e-4), std::invalid_argument);
-  EXPECT_THROW(strain_relaxations(1.0, 0.0), std::invalid_argument);
-  EXPECT_THROW(strain_relaxations(1.0, 0.5), std::invalid_argument);
-  EXPECT_THROW(strain_relaxations(1e9, 1e-8), std::invalid_argument);
+  EXPECT_THROW(strain_relaxations(spectrum(-1.0), 1e-4), std::invalid_argument);
+  EXPECT_THROW(strain_relaxations(spectrum(std::numeric_limits<double>::quiet_NaN()), 1e-4), std::invalid_argument);
+  EXPECT_THROW(strain_relaxations(spectrum(1.0), 0.0), std::invalid_argument);
+  EXPECT_THROW(strain_relaxations(spectrum(1.0), 0.5), std::invalid_argument);
+  EXPECT_THROW(strain_relaxations(spectrum(1e9), 1e-8), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Small assemblies that tests share.
 
 #include <cmath>
+#include <string>
 
 #include "dem/assembly/assembly.h"
 #include "dem/assembly/contacts.h"
@@ -25,6 +26,12 @@ inline Assembly random_free_strip() {
   const Bonds bonds = cut_at_edges(p, bonds_within_gap(p, 0.3 * mean_radius(p)), true, true);
   p.period = {};
   return make_assembly(p, bonds, 1.0, kDensity);
+}
+
+/// A random packing of 682 discs periodic in x and y, gap tolerance 0.3 mean radii.
+inline Assembly random_cell(int seed) {
+  const Packing p = oracle_packing("packings/p682_s" + std::to_string(seed) + ".csv", {16.5e-3, 2e-3}, 16.5e-3, 2e-3);
+  return make_assembly(p, bonds_within_gap(p, 0.3 * mean_radius(p)), 1.0, kDensity);
 }
 
 /// Deterministic noise in (-1, 1).
