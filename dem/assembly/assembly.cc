@@ -21,6 +21,7 @@ Bonds select(const Bonds& bonds, const std::vector<char>& keep) {
     out.nx.push_back(bonds.nx[c]);
     out.ny.push_back(bonds.ny[c]);
     out.length.push_back(bonds.length[c]);
+    out.stretch.push_back(bonds.stretch[c]);
     out.arm_i.push_back(bonds.arm_i[c]);
     out.arm_j.push_back(bonds.arm_j[c]);
   }

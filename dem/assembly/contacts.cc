@@ -143,7 +143,7 @@ std::vector<ClosePair> close_pairs(const Packing& packing, double max_gap) {
 Bonds bonds_of(const Packing& packing, std::span<const ClosePair> pairs) {
   Bonds bonds;
   for (auto* indices : {&bonds.i, &bonds.j}) indices->reserve(pairs.size());
-  for (auto* values : {&bonds.nx, &bonds.ny, &bonds.length, &bonds.arm_i, &bonds.arm_j})
+  for (auto* values : {&bonds.nx, &bonds.ny, &bonds.length, &bonds.stretch, &bonds.arm_i, &bonds.arm_j})
     values->reserve(pairs.size());
   for (const ClosePair& pair : pairs) {
     const double length = std::sqrt(pair.dx * pair.dx + pair.dy * pair.dy);
@@ -156,6 +156,7 @@ Bonds bonds_of(const Packing& packing, std::span<const ClosePair> pairs) {
     bonds.nx.push_back(pair.dx / length);
     bonds.ny.push_back(pair.dy / length);
     bonds.length.push_back(length);
+    bonds.stretch.push_back(length / (r_i + r_j));
     bonds.arm_i.push_back(r_i * length / (r_i + r_j));
     bonds.arm_j.push_back(r_j * length / (r_i + r_j));
   }

@@ -8,9 +8,9 @@
 namespace ddem::DDEM_ISA {
 namespace {
 
-/// Overlaps of a row of bonds and their current normals and arms.
+/// Overlaps of a row of bonds, their current normals, and their arms over the radii.
 struct BondState {
-  Pack nx, ny, arm_own, arm_other;
+  Pack nx, ny, stretch;
   Pack u_n, u_t;
 };
 
@@ -20,20 +20,20 @@ struct Vector {
 };
 
 DDEM_INLINE BondState bond_at(const StepData& d, int k) {
-  return {load(d.nx + k), load(d.ny + k), load(d.arm_own + k), load(d.arm_other + k), Pack{}, Pack{}};
+  return {load(d.nx + k), load(d.ny + k), load(d.stretch + k), Pack{}, Pack{}};
 }
 
 /// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; u: displacement of the
-/// other disc less the own.
+/// other disc less the own; roll: r theta.
 struct LinearKinematics {
   static constexpr bool kLinear = true;
 
   template <bool kRotation>
-  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack theta_own, Pack theta_other) {
+  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
     BondState b = bond_at(d, k);
     b.u_n = b.nx * u.x + b.ny * u.y;
     // The sum of the two rotations first: symmetric in the two ends, so both ends of a bond get the same bits.
-    if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - (b.arm_own * theta_own + b.arm_other * theta_other);
+    if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - b.stretch * (roll_own + roll_other);
     return b;
   }
 };
@@ -44,13 +44,13 @@ struct NonlinearKinematics {
   static constexpr bool kLinear = false;
 
   template <bool kRotation>
-  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack theta_own, Pack theta_other) {
+  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
     BondState b = bond_at(d, k);
     const Pack l0 = load(d.length + k), x0 = l0 * b.nx, y0 = l0 * b.ny;
     const Pack x = x0 + u.x, y = y0 + u.y, l = square_root(x * x + y * y);
-    const Pack stretch = l / l0;
-    const Pack rotation = (b.arm_own * theta_own + b.arm_other * theta_other) / l0;
-    b = {x / l, y / l, b.arm_own * stretch, b.arm_other * stretch, Pack{}, Pack{}};
+    const Pack elongation = l / l0;
+    const Pack rotation = b.stretch * (roll_own + roll_other) / l0;
+    b = {x / l, y / l, b.stretch * elongation, Pack{}, Pack{}};
     // L - L0 without the cancellation.
     b.u_n = (2.0 * (x0 * u.x + y0 * u.y) + (u.x * u.x + u.y * u.y)) / (l + l0);
     if constexpr (kRotation) {
@@ -73,9 +73,22 @@ struct NonlinearKinematics {
 /// How far the boundaries of the two discs move towards each other at the contact: (a_i eps_i + a_j eps_j).n, whose normal
 /// and tangential parts a n.eps.n and a t.eps.n are taken from the overlaps. The same bits from either end.
 DDEM_INLINE Vector approach(const BondState& b, const Triple& own, const Triple& other) {
-  const Pack xx = b.arm_own * own.a + b.arm_other * other.a, yy = b.arm_own * own.b + b.arm_other * other.b,
-             xy = b.arm_own * own.c + b.arm_other * other.c;
-  return {xx * b.nx + xy * b.ny, xy * b.nx + yy * b.ny};
+  const Pack xx = own.a + other.a, yy = own.b + other.b, xy = own.c + other.c;
+  return {b.stretch * (xx * b.nx + xy * b.ny), b.stretch * (xy * b.nx + yy * b.ny)};
+}
+
+/// n (x) n: its diagonal, and twice the product of the components.
+struct Dyad {
+  Pack xx, yy, xy;
+};
+DDEM_INLINE Dyad dyad(const BondState& b) {
+  const Pack xy = b.nx * b.ny;
+  return {b.nx * b.nx, b.ny * b.ny, xy + xy};
+}
+
+/// The normal part of that.
+DDEM_INLINE Pack normal_approach(const BondState& b, const Dyad& n, const Triple& own, const Triple& other) {
+  return b.stretch * (n.xx * (own.a + other.a) + n.yy * (own.b + other.b) + n.xy * (own.c + other.c));
 }
 
 /// k_n and k_t of the row's bonds.

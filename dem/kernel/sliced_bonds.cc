@@ -9,7 +9,7 @@ namespace {
 
 struct HalfBond {
   int other;
-  double nx, ny, length, arm_own, arm_other, stiffness;
+  double nx, ny, stretch, length, stiffness;
 };
 
 std::vector<std::vector<HalfBond>> half_bonds(const Bonds& b, const std::vector<int>& position,
@@ -18,15 +18,15 @@ std::vector<std::vector<HalfBond>> half_bonds(const Bonds& b, const std::vector<
   for (std::size_t c = 0; c < b.size(); ++c) {
     const int i = position[b.i[c]], j = position[b.j[c]];
     const double k_n = stiffness.empty() ? 0.0 : stiffness[c];
-    of_disc[i].push_back({j, b.nx[c], b.ny[c], b.length[c], b.arm_i[c], b.arm_j[c], k_n});
-    of_disc[j].push_back({i, -b.nx[c], -b.ny[c], b.length[c], b.arm_j[c], b.arm_i[c], k_n});
+    of_disc[i].push_back({j, b.nx[c], b.ny[c], b.stretch[c], b.length[c], k_n});
+    of_disc[j].push_back({i, -b.nx[c], -b.ny[c], b.stretch[c], b.length[c], k_n});
   }
   return of_disc;
 }
 
 }  // namespace
 
-SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness) {
+SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths) {
   const std::vector<std::vector<HalfBond>> of_disc = half_bonds(bonds, position, stiffness);
   const int discs = static_cast<int>(position.size());
   SlicedBonds s;
@@ -42,13 +42,12 @@ SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, co
       for (int lane = 0; lane < kLanes; ++lane) {
         const int d = slice * kLanes + lane;
         const bool real = d < discs && row < of_disc[d].size();
-        const HalfBond h = real ? of_disc[d][row] : HalfBond{d, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+        const HalfBond h = real ? of_disc[d][row] : HalfBond{d, 1.0, 0.0, 0.0, 1.0, 0.0};
         s.neighbour.push_back(h.other);
         s.nx.push_back(h.nx);
         s.ny.push_back(h.ny);
-        s.length.push_back(h.length);
-        s.arm_own.push_back(h.arm_own);
-        s.arm_other.push_back(h.arm_other);
+        s.stretch.push_back(h.stretch);
+        if (lengths) s.length.push_back(h.length);
         if (!stiffness.empty()) s.stiffness.push_back(h.stiffness);
       }
     }

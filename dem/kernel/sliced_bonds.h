@@ -2,7 +2,10 @@
 // Bonds laid out for the gather loop: sliced ELLPACK. Eight successive discs make a slice; row r of a slice holds the
 // r-th bond of each of its discs, so that one SIMD lane is one disc and every disc sums its own bonds in a fixed order
 // (the same bits for any number of threads). A bond is stored twice, once from either end, with its normal turned.
-// A disc with fewer bonds than its slice has rows is filled up with bonds to itself with zero arms: they give no force.
+// A disc with fewer bonds than its slice has rows is filled up with bonds to itself without an arm: they give no force.
+//
+// The arms of a bond, a_i = r_i L / (r_i + r_j), differ from the radii by the same factor s = L / (r_i + r_j) at both ends.
+// The solver therefore keeps rotations and strains times the radius, r theta and r eps, and of the arms s alone.
 
 #include <cstdint>
 #include <vector>
@@ -20,15 +23,15 @@ struct SlicedBonds {
   std::vector<std::int32_t> row_begin;     ///< slices + 1: first row of each slice
   AlignedVector<std::int32_t> neighbour;   ///< rows * kLanes, index of the other disc
   AlignedVector<double> nx, ny;            ///< unit normal towards the neighbour
-  AlignedVector<double> length;            ///< distance of the centres at the start, m
-  AlignedVector<double> arm_own, arm_other;
+  AlignedVector<double> stretch;           ///< s = L / (r_i + r_j)
+  AlignedVector<double> length;            ///< L, m; empty unless asked for
   AlignedVector<double> stiffness;         ///< k_n, N/m; empty where all bonds have the same
 
   std::size_t rows() const { return neighbour.size() / kLanes; }
 };
 
 /// `position[d]` is the place of disc d in the solver's order; `stiffness` one value a bond, or empty.
-SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness);
+SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths);
 
 /// An order of the discs in which neighbours are near in memory: bands across the strip's short side.
 /// Returns position[d].

@@ -6,15 +6,15 @@
 
 namespace ddem {
 
-/// Doubles a disc in the arrays of what its neighbours read: u_x, u_y, theta or eps_xx, eps_yy, eps_xy, and one to align
-/// them.
+/// Doubles a disc in the arrays of what its neighbours read: u_x, u_y, r theta or r eps_xx, r eps_yy, r eps_xy (metres), and
+/// one to align them.
 constexpr int kQuad = 4;
 
 struct StepData {
   // Bonds, see SlicedBonds.
   const std::int32_t* row_begin;
   const std::int32_t* neighbour;
-  const double *nx, *ny, *length, *arm_own, *arm_other;
+  const double *nx, *ny, *stretch, *length;
   double normal_stiffness, shear_stiffness;  ///< the same for every bond, or
   const double* bond_stiffness;              ///< k_n of every stored half-bond, and
   double stiffness_ratio;                    ///< k_t / k_n
@@ -23,26 +23,25 @@ struct StepData {
   // velocities (n - 1/2 to n + 1/2) are updated in place, since no other disc reads them.
   const double* motion;
   double* motion_next;
-  double *vx, *vy, *omega;
-  const double *kick_x, *kick_y, *kick_theta;  ///< dt / mass, dt / inertia; 0 where held
+  double *vx, *vy, *omega;  ///< omega: r times the angular velocity
+  const double *kick_x, *kick_y, *kick_theta;  ///< dt / mass, dt r^2 / inertia; 0 where held
   double dt;
 
-  // Particle strains (kQuad a disc): in and out; D of the disc's material over its volume.
+  // Particle strains (kQuad a disc): in and out; D r^2 / V_p, which takes sum s n (x) F to r eps.
   const double* strain;
   double* strain_next;
-  const double* inverse_volume;
   double compliance_direct, compliance_coupling, compliance_shear;
   double keep_strain, new_strain;  ///< lagged: 1 - relaxation, relaxation
 
   // Implicit strains (kQuad a disc): f = (V C)^-1 S K C u (polynomial), or the residual (conjugate gradients).
   double* source;
   double relaxation;  ///< polynomial: weight of the residual in the next approximation
+  double *rigid_fx, *rigid_fy, *rigid_moment;  ///< polynomial: forces of rigid discs, moment over r
 
   // Conjugate gradients.
   double *direction, *applied;     ///< kQuad a disc; applied: (1 + T) direction
-  const double* volume;            ///< V_p, m3; 0 where there is no disc
   double *product, *scale;         ///< inner products, a share of each disc
-  double elasticity_direct, elasticity_coupling, elasticity_shear;  ///< eps : C_p : eps by components
+  double elasticity_direct, elasticity_coupling, elasticity_shear;  ///< V_p eps : C_p : eps by components of r eps
   double step_length, direction_weight;
 
   // Nonlinear kinematics, one value a stored half-bond: relative displacement and weighted rotation of the step before,
@@ -70,6 +69,7 @@ struct StepKernels {
   // Implicit, polynomial.
   SliceFunction source = nullptr;   ///< first approximation of the strains from the displacements
   SliceFunction iterate = nullptr;  ///< a better approximation from the last
+  SliceFunction respond = nullptr;  ///< kick and drift by the forces that the source stage has left, and the strains
   // Implicit, conjugate gradients.
   SliceFunction residual = nullptr;  ///< of the strains at hand; the first direction
   SliceFunction apply = nullptr;     ///< the operator on the direction

@@ -62,9 +62,14 @@ struct StepKernel {
       return Kinematics::template overlaps<kRotation>(d, k, u, own.motion.c, other.c);
     } else {
       BondState b = rigid(d, k, own.motion);
-      const Vector v = approach(b, own.strain, gather(d.strain, d.neighbour + k));
-      b.u_n -= b.nx * v.x + b.ny * v.y;
-      if constexpr (kRotation && kStrain == StrainCoupling::full) b.u_t -= b.nx * v.y - b.ny * v.x;
+      const Triple other = gather(d.strain, d.neighbour + k);
+      if constexpr (kRotation && kStrain == StrainCoupling::full) {
+        const Vector v = approach(b, own.strain, other);
+        b.u_n -= b.nx * v.x + b.ny * v.y;
+        b.u_t -= b.nx * v.y - b.ny * v.x;
+      } else {
+        b.u_n -= normal_approach(b, dyad(b), own.strain, other);
+      }
       return b;
     }
   }
@@ -74,12 +79,12 @@ struct StepKernel {
   DDEM_INLINE static void add(const StepData& d, const BondState& b, int k, Sums& sum) {
     const Pack f_n = Stiffness::normal(d, k) * b.u_n;
     Pack fx = f_n * b.nx, fy = f_n * b.ny;
-    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_stress(b, fx, fy, sum);
+    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_normal_stress(b, dyad(b), f_n, sum);
     if constexpr (kRotation) {
       const Pack f_t = Stiffness::shear(d, k) * b.u_t;
       fx -= f_t * b.ny;
       fy += f_t * b.nx;
-      if constexpr (kForce) sum.moment += b.arm_own * f_t;
+      if constexpr (kForce) sum.moment += b.stretch * f_t;
       if constexpr (kStress && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, sum);
     }
     if constexpr (kForce) {
@@ -88,20 +93,24 @@ struct StepKernel {
     }
   }
 
-  /// V_p sigma_p = sum_c s_c (x) F_c, s_c = a n; sxy holds the sum of both shear stresses.
+  /// V_p sigma_p / r = sum_c s n (x) F_c; sxy holds the sum of both shear stresses.
   DDEM_INLINE static void add_stress(const BondState& b, Pack fx, Pack fy, Sums& sum) {
-    const Pack sx = b.arm_own * b.nx, sy = b.arm_own * b.ny;
+    const Pack sx = b.stretch * b.nx, sy = b.stretch * b.ny;
     sum.sxx += sx * fx;
     sum.syy += sy * fy;
     sum.sxy += sx * fy + sy * fx;
   }
+  DDEM_INLINE static void add_normal_stress(const BondState& b, const Dyad& n, Pack f_n, Sums& sum) {
+    const Pack g = b.stretch * f_n;
+    sum.sxx += g * n.xx;
+    sum.syy += g * n.yy;
+    sum.sxy += g * n.xy;
+  }
 
-  /// eps_p = D : sigma_p.
-  DDEM_INLINE static Triple strain_from(const StepData& d, int p, const Sums& sum) {
-    const Pack w = load(d.inverse_volume + p);
-    const Pack sxx = w * sum.sxx, syy = w * sum.syy, sxy = 0.5 * (w * sum.sxy);
-    return {d.compliance_direct * sxx + d.compliance_coupling * syy, d.compliance_coupling * sxx + d.compliance_direct * syy,
-            d.compliance_shear * sxy};
+  /// r eps_p = r D : sigma_p.
+  DDEM_INLINE static Triple strain_from(const StepData& d, const Sums& sum) {
+    return {d.compliance_direct * sum.sxx + d.compliance_coupling * sum.syy,
+            d.compliance_coupling * sum.sxx + d.compliance_direct * sum.syy, 0.5 * d.compliance_shear * sum.sxy};
   }
 
   DDEM_INLINE static void relax_strain(const StepData& d, int p, const Triple& before, const Triple& e) {
@@ -134,19 +143,28 @@ struct StepKernel {
     };
   }
 
-  /// Under the strains alone: overlaps G eps, whose stress gives T eps.
+  /// Under the strains alone: overlaps G eps, whose stress gives T eps, or whose force is what the discs' strains take off.
+  template <bool kForce, bool kStress>
   DDEM_INLINE static auto strained(const StepData& d) {
     return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
       const BondState b = bond_at(d, k);
-      const Vector v = approach(b, own, gather(d.strain, d.neighbour + k));
-      // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).
+      const Triple other = gather(d.strain, d.neighbour + k);
       const Pack k_n = Stiffness::normal(d, k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
+        // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).
+        const Vector v = approach(b, own, other);
         const Pack k_t = Stiffness::shear(d, k), g = (k_n - k_t) * (b.nx * v.x + b.ny * v.y);
-        add_stress(b, k_t * v.x + g * b.nx, k_t * v.y + g * b.ny, sum);
+        const Pack fx = k_t * v.x + g * b.nx, fy = k_t * v.y + g * b.ny;
+        if constexpr (kStress) add_stress(b, fx, fy, sum);
+        if constexpr (kForce) {
+          sum.fx += fx, sum.fy += fy;
+          sum.moment += b.stretch * (k_t * (b.nx * v.y - b.ny * v.x));
+        }
       } else {
-        const Pack f_n = k_n * (b.nx * v.x + b.ny * v.y);
-        add_stress(b, f_n * b.nx, f_n * b.ny, sum);
+        const Dyad n = dyad(b);
+        const Pack f_n = k_n * normal_approach(b, n, own, other);
+        if constexpr (kStress) add_normal_stress(b, n, f_n, sum);
+        if constexpr (kForce) sum.fx += f_n * b.nx, sum.fy += f_n * b.ny;
       }
     };
   }
@@ -159,7 +177,7 @@ struct StepKernel {
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<true, kLagged>(d),
         [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
           kick_and_drift(d, p, own.motion, sum);
-          if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, p, sum));
+          if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, sum));
         });
   }
 
@@ -167,17 +185,20 @@ struct StepKernel {
     const StepData d = data;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<false, true>(d),
-        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA { relax_strain(d, p, own.strain, strain_from(d, p, sum)); });
+        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA { relax_strain(d, p, own.strain, strain_from(d, sum)); });
   }
 
-  /// f = (V C)^-1 S K C u, and the first approximation from zero.
+  /// f = (V C)^-1 S K C u, the first approximation from zero, and the forces of rigid discs.
   static void source(const StepData& data, int begin, int end) {
     const StepData d = data;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.motion, p); },
-        [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA { add<false, true>(d, rigid(d, k, own), k, sum); },
+        [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA { add<true, true>(d, rigid(d, k, own), k, sum); },
         [&d](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple f = strain_from(d, p, sum);
+          store(d.rigid_fx + p, sum.fx);
+          store(d.rigid_fy + p, sum.fy);
+          if constexpr (kRotation) store(d.rigid_moment + p, sum.moment);
+          const Triple f = strain_from(d, sum);
           store_triple(d.source, p, f);
           store_triple(d.strain_next, p, {d.relaxation * f.a, d.relaxation * f.b, d.relaxation * f.c});
         });
@@ -187,10 +208,24 @@ struct StepKernel {
   static void iterate(const StepData& data, int begin, int end) {
     const StepData d = data;
     for_slices(
-        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained(d),
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<false, true>(d),
         [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple rest = difference(difference(load_triple(d.source, p), e), strain_from(d, p, sum));
+          const Triple rest = difference(difference(load_triple(d.source, p), e), strain_from(d, sum));
           store_triple(d.strain_next, p, along(e, d.relaxation, rest));
+        });
+  }
+
+  /// The motion under the forces of rigid discs, less what the strains take off them.
+  static void respond(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for_slices(
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<true, false>(d),
+        [&d](int p, const Triple&, const Sums& off) DDEM_INLINE_LAMBDA {
+          Sums sum;
+          sum.fx = load(d.rigid_fx + p) - off.fx;
+          sum.fy = load(d.rigid_fy + p) - off.fy;
+          if constexpr (kRotation) sum.moment = load(d.rigid_moment + p) - off.moment;
+          kick_and_drift(d, p, load_triple(d.motion, p), sum);
         });
   }
 
@@ -202,11 +237,11 @@ struct StepKernel {
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<false, true>(d),
         [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple s = strain_from(d, p, sum), r = difference(s, own.strain);
+          const Triple s = strain_from(d, sum), r = difference(s, own.strain);
           store_triple(d.source, p, r);
           store_triple(d.direction, p, r);
-          store(d.product + p, inner(d, p, r, r));
-          store(d.scale + p, inner(d, p, s, s));
+          store(d.product + p, inner(d, r, r));
+          store(d.scale + p, inner(d, s, s));
         });
   }
 
@@ -215,11 +250,11 @@ struct StepKernel {
     StepData d = data;
     d.strain = d.direction;
     for_slices(
-        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained(d),
+        d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<false, true>(d),
         [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple t = strain_from(d, p, sum), q{e.a + t.a, e.b + t.b, e.c + t.c};
+          const Triple t = strain_from(d, sum), q{e.a + t.a, e.b + t.b, e.c + t.c};
           store_triple(d.applied, p, q);
-          store(d.product + p, inner(d, p, e, q));
+          store(d.product + p, inner(d, e, q));
         });
   }
 
@@ -230,7 +265,7 @@ struct StepKernel {
       store_triple(d.strain_next, p, along(load_triple(d.strain, p), d.step_length, load_triple(d.direction, p)));
       const Triple r = along(load_triple(d.source, p), -d.step_length, load_triple(d.applied, p));
       store_triple(d.source, p, r);
-      store(d.product + p, inner(d, p, r, r));
+      store(d.product + p, inner(d, r, r));
     }
   }
 
@@ -243,9 +278,9 @@ struct StepKernel {
   }
 
   /// V_p x : C_p : y.
-  DDEM_INLINE static Pack inner(const StepData& d, int p, const Triple& x, const Triple& y) {
-    return load(d.volume + p) * (d.elasticity_direct * (x.a * y.a + x.b * y.b) + d.elasticity_coupling * (x.a * y.b + x.b * y.a) +
-                                 d.elasticity_shear * (x.c * y.c));
+  DDEM_INLINE static Pack inner(const StepData& d, const Triple& x, const Triple& y) {
+    return d.elasticity_direct * (x.a * y.a + x.b * y.b) + d.elasticity_coupling * (x.a * y.b + x.b * y.a) +
+           d.elasticity_shear * (x.c * y.c);
   }
 
   static StepKernels kernels(const StepFeatures& f) {
@@ -254,7 +289,7 @@ struct StepKernel {
       if constexpr (Kinematics::kLinear) {
         if (f.implicit) {
           k.step = &step<false>;
-          k.source = &source, k.iterate = &iterate;
+          k.source = &source, k.iterate = &iterate, k.respond = &respond;
           k.residual = &residual, k.apply = &apply, k.advance = &advance, k.turn = &turn;
           return k;
         }

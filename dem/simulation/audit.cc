@@ -27,7 +27,7 @@ StateAudit::Overlaps StateAudit::rigid_overlaps(std::size_t c, const MotionView&
   const double dx = u.ux(j) - u.ux(i), dy = u.uy(j) - u.uy(i);
   Overlaps w{nx * dx + ny * dy, 0.0};
   if (contact_.has_rotation()) {
-    w.tangential = nx * dy - ny * dx - (b.arm_i[c] * u.theta(i) + b.arm_j[c] * u.theta(j));
+    w.tangential = nx * dy - ny * dx - (b.arm_i[c] * u.theta(i, radius(b.i[c])) + b.arm_j[c] * u.theta(j, radius(b.j[c])));
   }
   return w;
 }
@@ -36,13 +36,15 @@ StateAudit::Overlaps StateAudit::rigid_overlaps(std::size_t c, const MotionView&
 StateAudit::Overlaps StateAudit::correction(std::size_t c, const StrainView& e) const {
   if (!deformation_.active()) return {0.0, 0.0};
   const Bonds& b = assembly_.bonds;
-  const int i = position_[b.i[c]], j = position_[b.j[c]];
   const double nx = b.nx[c], ny = b.ny[c];
-  const auto n_eps_n = [&](int p) { return nx * nx * e.xx(p) + ny * ny * e.yy(p) + 2.0 * nx * ny * e.xy(p); };
-  const auto t_eps_n = [&](int p) { return nx * ny * (e.yy(p) - e.xx(p)) + (nx * nx - ny * ny) * e.xy(p); };
-  Overlaps g{b.arm_i[c] * n_eps_n(i) + b.arm_j[c] * n_eps_n(j), 0.0};
-  if (contact_.has_rotation() && deformation_.correction == Correction::full) {
-    g.tangential = b.arm_i[c] * t_eps_n(i) + b.arm_j[c] * t_eps_n(j);
+  Overlaps g{0.0, 0.0};
+  for (const auto& [disc, arm] : {std::pair(b.i[c], b.arm_i[c]), std::pair(b.j[c], b.arm_j[c])}) {
+    const int p = position_[disc];
+    const double r = radius(disc), xx = e.xx(p, r), yy = e.yy(p, r), xy = e.xy(p, r);
+    g.normal += arm * (nx * nx * xx + ny * ny * yy + 2.0 * nx * ny * xy);
+    if (contact_.has_rotation() && deformation_.correction == Correction::full) {
+      g.tangential += arm * (nx * ny * (yy - xx) + (nx * nx - ny * ny) * xy);
+    }
   }
   return g;
 }
@@ -63,8 +65,8 @@ double StateAudit::strain_energy(const StrainView& e) const {
   double sum = 0.0;
   for (std::size_t disc = 0; disc < assembly_.size(); ++disc) {
     const int p = position_[disc];
-    const double quadratic = (d.direct * (e.xx(p) * e.xx(p) + e.yy(p) * e.yy(p)) - 2.0 * d.coupling * e.xx(p) * e.yy(p)) / det +
-                             2.0 * e.xy(p) * e.xy(p) / d.shear;
+    const double r = radius(static_cast<int>(disc)), xx = e.xx(p, r), yy = e.yy(p, r), xy = e.xy(p, r);
+    const double quadratic = (d.direct * (xx * xx + yy * yy) - 2.0 * d.coupling * xx * yy) / det + 2.0 * xy * xy / d.shear;
     sum += 0.5 * volume_[disc] * quadratic;
   }
   return sum;
@@ -89,7 +91,8 @@ double StateAudit::kinetic_energy(const VelocityView& v, const Load* load) const
     const double vy = load == nullptr ? v.vy[p] : at(v.vy[p], v.kick_y[p], load->y[disc]);
     sum += 0.5 * assembly_.mass[disc] * (vx * vx + vy * vy);
     if (contact_.has_rotation()) {
-      const double omega = load == nullptr ? v.omega[p] : at(v.omega[p], v.kick_theta[p], load->moment[disc]);
+      const double r = radius(static_cast<int>(disc));
+      const double omega = (load == nullptr ? v.omega[p] : at(v.omega[p], v.kick_theta[p], load->moment[disc] / r)) / r;
       sum += 0.5 * assembly_.inertia[disc] * omega * omega;
     }
   }

@@ -16,21 +16,21 @@
 
 namespace ddem {
 
-/// Arrays of kQuad doubles a disc, in the order given by `position`: u_x, u_y, theta; eps_xx, eps_yy, eps_xy (null for
-/// rigid discs).
+/// Arrays of kQuad doubles a disc, in the order given by `position`: u_x, u_y, r theta; r eps_xx, r eps_yy, r eps_xy (null
+/// for rigid discs). `r`: the disc's radius.
 struct MotionView {
   const double* values;
   double ux(int p) const { return values[kQuad * p]; }
   double uy(int p) const { return values[kQuad * p + 1]; }
-  double theta(int p) const { return values[kQuad * p + 2]; }
+  double theta(int p, double r) const { return values[kQuad * p + 2] / r; }
 };
 struct StrainView {
   const double* values;
-  double xx(int p) const { return values[kQuad * p]; }
-  double yy(int p) const { return values[kQuad * p + 1]; }
-  double xy(int p) const { return values[kQuad * p + 2]; }
+  double xx(int p, double r) const { return values[kQuad * p] / r; }
+  double yy(int p, double r) const { return values[kQuad * p + 1] / r; }
+  double xy(int p, double r) const { return values[kQuad * p + 2] / r; }
 };
-/// Velocities half a step after the displacements, and dt/m, dt/I (0 where held).
+/// Velocities half a step after the displacements (omega: r times the angular one), and dt/m, dt r^2/I (0 where held).
 struct VelocityView {
   const double *vx, *vy, *omega;
   const double *kick_x, *kick_y, *kick_theta;
@@ -65,6 +65,7 @@ class StateAudit {
   struct Overlaps {
     double normal, tangential;
   };
+  double radius(int disc) const { return assembly_.packing.radius[disc]; }
   Overlaps rigid_overlaps(std::size_t bond, const MotionView& u) const;
   Overlaps correction(std::size_t bond, const StrainView& strain) const;
   Overlaps corrected_overlaps(std::size_t bond, const MotionView& u, const StrainView& strain) const;

@@ -24,10 +24,10 @@ double sum(const AlignedVector<double>& shares) {
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(AlignedVector<double> volume, const Compliance& compliance, double tolerance)
-    : volume_(std::move(volume)), compliance_(compliance), tolerance_(tolerance) {
-  for (auto* v : {&product_, &scale_}) v->assign(volume_.size(), 0.0);
-  for (auto* v : {&direction_, &applied_}) v->assign(kQuad * volume_.size(), 0.0);
+ConjugateGradients::ConjugateGradients(std::size_t places, const Compliance& compliance, double tolerance)
+    : compliance_(compliance), tolerance_(tolerance) {
+  for (auto* v : {&product_, &scale_}) v->assign(places, 0.0);
+  for (auto* v : {&direction_, &applied_}) v->assign(kQuad * places, 0.0);
 }
 
 void ConjugateGradients::bind(StepData& d) {
@@ -35,7 +35,6 @@ void ConjugateGradients::bind(StepData& d) {
   d.elasticity_direct = compliance_.direct / determinant;
   d.elasticity_coupling = -compliance_.coupling / determinant;
   d.elasticity_shear = 2.0 / compliance_.shear;
-  d.volume = volume_.data();
   d.product = product_.data(), d.scale = scale_.data();
   d.direction = direction_.data(), d.applied = applied_.data();
 }

@@ -25,9 +25,9 @@ struct StrainBreakdown {
 
 class ConjugateGradients {
  public:
-  /// `volume` in the solver's order, zero where there is no disc. Stops when the residual, in the norm of V C, is below
-  /// `tolerance` times the strains that the forces at hand ask for.
-  ConjugateGradients(AlignedVector<double> volume, const Compliance& compliance, double tolerance);
+  /// For `places` discs; `compliance` D r^2 / V_p. Stops when the residual, in the norm of V C, is below `tolerance` times
+  /// the strains that the forces at hand ask for.
+  ConjugateGradients(std::size_t places, const Compliance& compliance, double tolerance);
 
   void bind(StepData& data);
 
@@ -42,7 +42,7 @@ class ConjugateGradients {
   Stage after_advance(StepData& data);
   Stage fail(StrainBreakdown::Cause cause);
 
-  AlignedVector<double> volume_, product_, scale_;
+  AlignedVector<double> product_, scale_;
   AlignedVector<double> direction_, applied_;  // kQuad a disc
   Compliance compliance_;
   double tolerance_ = 0.0;

@@ -30,7 +30,7 @@ void SignalRecorder::sample() {
       const int p = stepper_.place_of(disc);
       ux += u.ux(p);
       uy += u.uy(p);
-      if (input_.contact.has_rotation()) theta += u.theta(p);
+      if (input_.contact.has_rotation()) theta += u.theta(p, stepper_.radius(disc));
     }
     const double n = static_cast<double>(input_.receivers[r].discs.size());
     signals_.ux[r].push_back(ux / n);
@@ -83,7 +83,7 @@ void SnapshotRecorder::after_step() {
   s.state = stepper_.state_of(u.values);
   if (input_.contact.kinematics == Kinematics::linear) s.stress = audit_.stress(u, e);
   if (input_.deformation.active()) {
-    const auto component = [&](int k) { return stepper_.in_order(e.values + k, kQuad); };
+    const auto component = [&](int k) { return stepper_.over_radius(e.values + k, kQuad); };
     s.strain = {component(0), component(1), component(2)};
   }
   snapshots_.push_back(std::move(s));

@@ -26,19 +26,22 @@ bool held(const std::vector<std::uint8_t>& mask, std::size_t disc) { return !mas
 
 Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet isa)
     : position_(locality_order(a.packing)),
+      radius_(a.packing.radius),
       discs_(a.size()),
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
       drive_(input.drive),
       implicit_(input.deformation.scheme == Scheme::implicit) {
   const bool uniform = input.contact.uniform();
-  bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact));
+  bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
+                       input.contact.kinematics == Kinematics::nonlinear);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
   size_arrays(input);
   set_parameters(a, input);
   if (deformable_) prepare_strains(a, input);
   const bool nonlinear = input.contact.kinematics == Kinematics::nonlinear;
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform}, isa);
+  move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   start_leapfrog();
   begin_step();
@@ -51,10 +54,12 @@ void Stepper::size_arrays(const SimulationInput& input) {
   }
   for (auto* array : {&motion_, &motion_next_}) array->assign(kQuad * padded_, 0.0);
   if (deformable_) {
-    inverse_volume_.assign(padded_, 0.0);
     for (auto* array : {&strain_, &strain_next_}) array->assign(kQuad * padded_, 0.0);
   }
   if (implicit_) source_.assign(kQuad * padded_, 0.0);
+  if (implicit_ && input.deformation.solver == StrainSolver::polynomial) {
+    for (auto* array : {&rigid_fx_, &rigid_fy_, &rigid_moment_}) array->assign(padded_, 0.0);
+  }
   if (rotation_ && input.contact.kinematics == Kinematics::nonlinear) {
     for (auto* array : {&previous_dx_, &previous_dy_, &previous_rotation_, &slip_}) {
       array->assign(bonds_.neighbour.size(), 0.0);
@@ -68,7 +73,7 @@ void Stepper::set_parameters(const Assembly& a, const SimulationInput& input) {
     const int p = position_[d];
     kick_x_[p] = held(input.held.x, d) ? 0.0 : dt / a.mass[d];
     kick_y_[p] = held(input.held.y, d) ? 0.0 : dt / a.mass[d];
-    if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt / a.inertia[d];
+    if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt * radius_[d] * radius_[d] / a.inertia[d];
   }
   if (drive_) {
     auto& kick = drive_->direction == Direction::x ? kick_x_ : kick_y_;
@@ -82,13 +87,9 @@ void Stepper::set_parameters(const Assembly& a, const SimulationInput& input) {
 
 void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
   const DeformationParameters& deformation = input.deformation;
-  const std::vector<double> volume = particle_volumes(a, deformation);
-  AlignedVector<double> ordered(padded_, 0.0);
-  for (std::size_t d = 0; d < discs_; ++d) {
-    ordered[position_[d]] = volume[d];
-    inverse_volume_[position_[d]] = 1.0 / volume[d];
-  }
-  const Compliance c = disc_compliance(deformation);
+  const double volume = volume_over_square_radius(a, deformation);
+  Compliance c = disc_compliance(deformation);
+  for (double* component : {&c.direct, &c.coupling, &c.shear}) *component /= volume;
   data_.compliance_direct = c.direct;
   data_.compliance_coupling = c.coupling;
   data_.compliance_shear = c.shear;
@@ -97,7 +98,7 @@ void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
   if (!implicit_) {
     strain_stages_ = deformation.evaluations - 1;
   } else if (deformation.solver == StrainSolver::conjugate_gradients) {
-    gradients_.emplace(std::move(ordered), c, deformation.tolerance);
+    gradients_.emplace(padded_, c, deformation.tolerance);
   } else {
     relaxations_ = strain_relaxations(strain_spectrum(a, input.contact, deformation), deformation.tolerance);
     strain_stages_ = static_cast<int>(relaxations_.size());
@@ -128,7 +129,7 @@ void Stepper::begin_stage(Stage stage) {
     case Stage::apply: due_ = kernels_.apply; break;
     case Stage::advance: due_ = kernels_.advance; break;
     case Stage::turn: due_ = kernels_.turn; break;
-    case Stage::motion: due_ = kernels_.step; break;
+    case Stage::motion: due_ = move_; break;
   }
 }
 
@@ -156,9 +157,13 @@ void Stepper::load(const InitialState& s) {
     if (to.empty()) return;
     for (std::size_t d = 0; d < from.size(); ++d) to[static_cast<std::size_t>(stride * position_[d] + offset)] = from[d];
   };
+  const auto times_radius = [this](std::vector<double> values) {
+    for (std::size_t d = 0; d < values.size(); ++d) values[d] *= radius_[d];
+    return values;
+  };
   copy(s.ux, motion_, kQuad, 0), copy(s.uy, motion_, kQuad, 1);
-  if (rotation_) copy(s.theta, motion_, kQuad, 2);
-  copy(s.vx, vx_, 1, 0), copy(s.vy, vy_, 1, 0), copy(s.omega, omega_, 1, 0);
+  if (rotation_) copy(times_radius(s.theta), motion_, kQuad, 2);
+  copy(s.vx, vx_, 1, 0), copy(s.vy, vy_, 1, 0), copy(times_radius(s.omega), omega_, 1, 0);
   if (drive_) impose(0.0, motion_);
   bind();
 }
@@ -175,7 +180,7 @@ void Stepper::start_leapfrog() {
   }
   StepData d = data_;
   d.vx = vx.data(), d.vy = vy.data(), d.omega = omega.data();
-  kernels_.step(d, 0, bonds_.slices);
+  move_(d, 0, bonds_.slices);
   for (std::size_t p = 0; p < padded_; ++p) {
     vx_[p] -= 0.5 * vx[p];
     vy_[p] -= 0.5 * vy[p];
@@ -212,15 +217,14 @@ void Stepper::swap_strains() {
 void Stepper::bind() {
   StepData& d = data_;
   d.row_begin = bonds_.row_begin.data(), d.neighbour = bonds_.neighbour.data();
-  d.nx = bonds_.nx.data(), d.ny = bonds_.ny.data(), d.length = bonds_.length.data();
-  d.arm_own = bonds_.arm_own.data(), d.arm_other = bonds_.arm_other.data();
+  d.nx = bonds_.nx.data(), d.ny = bonds_.ny.data(), d.stretch = bonds_.stretch.data(), d.length = bonds_.length.data();
   d.bond_stiffness = bonds_.stiffness.data();
   if (gradients_) gradients_->bind(d);
   d.motion = motion_.data(), d.motion_next = motion_next_.data();
   d.vx = vx_.data(), d.vy = vy_.data(), d.omega = omega_.data();
   d.kick_x = kick_x_.data(), d.kick_y = kick_y_.data(), d.kick_theta = kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
-  d.inverse_volume = inverse_volume_.data();
+  d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();
   d.previous_rotation = previous_rotation_.data(), d.slip = slip_.data();
 }
@@ -241,9 +245,15 @@ std::vector<double> Stepper::in_order(const double* values, int stride) const {
   return ordered;
 }
 
+std::vector<double> Stepper::over_radius(const double* values, int stride) const {
+  std::vector<double> ordered = in_order(values, stride);
+  for (std::size_t d = 0; d < discs_; ++d) ordered[d] /= radius_[d];
+  return ordered;
+}
+
 InitialState Stepper::state_of(const double* motion) const {
-  return {in_order(motion, kQuad),  in_order(motion + 1, kQuad), in_order(motion + 2, kQuad),
-          in_order(vx_.data()),     in_order(vy_.data()),        in_order(omega_.data())};
+  return {in_order(motion, kQuad), in_order(motion + 1, kQuad), over_radius(motion + 2, kQuad),
+          in_order(vx_.data()),    in_order(vy_.data()),        over_radius(omega_.data())};
 }
 
 }  // namespace ddem

@@ -28,6 +28,7 @@ class Stepper {
   int slices() const { return bonds_.slices; }
   long step() const { return step_number_; }
   int place_of(int disc) const { return position_[disc]; }
+  double radius(int disc) const { return radius_[disc]; }
   const std::vector<int>& order() const { return position_; }
 
   const StepData& data() const { return data_; }
@@ -43,6 +44,8 @@ class Stepper {
   InitialState state_of(const double* motion) const;
   /// values[stride p], one value a disc in the order of the assembly; zero for a null pointer.
   std::vector<double> in_order(const double* values, int stride = 1) const;
+  /// The same of what the solver keeps times the radius.
+  std::vector<double> over_radius(const double* values, int stride = 1) const;
 
  private:
   void size_arrays(const SimulationInput& input);
@@ -59,15 +62,16 @@ class Stepper {
 
   SlicedBonds bonds_;
   std::vector<int> position_;
+  std::vector<double> radius_;  // in the order of the assembly
   std::size_t discs_ = 0, padded_ = 0;
   bool rotation_ = false, deformable_ = false;
   std::optional<EdgeDrive> drive_;
   AlignedVector<double> motion_, motion_next_, strain_, strain_next_, source_;  // kQuad a disc
-  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_, inverse_volume_;
+  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_, rigid_fx_, rigid_fy_, rigid_moment_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
   StepData data_{};
   StepKernels kernels_;
-  SliceFunction due_ = nullptr;
+  SliceFunction move_ = nullptr, due_ = nullptr;
   bool implicit_ = false;
   Stage stage_ = Stage::motion;
   int strain_stages_ = 0, stages_done_ = 0;  // before the motion; of the step under way

@@ -132,7 +132,7 @@ TEST(ImplicitStrains, BothSolversGiveTheSameMotion) {
 
 TEST(ImplicitStrains, IterationThatStallsIsAStatus) {
   // The class alone, with products as a kernel would leave them: the residual never falls.
-  ConjugateGradients gradients(AlignedVector<double>(kLanes, 1.0), {1.0, -0.3, 1.3}, 1e-8);
+  ConjugateGradients gradients(kLanes, {1.0, -0.3, 1.3}, 1e-8);
   StepData data{};
   gradients.bind(data);
   Stage stage = Stage::residual;
