@@ -28,18 +28,14 @@ Bonds select(const Bonds& bonds, const std::vector<char>& keep) {
   return out;
 }
 
-/// Throws unless all discs but the rattlers hang together.
-void require_one_network(const Assembly& a, std::size_t discs) {
-  if (a.rattlers.size() == discs) {
-    throw std::invalid_argument("the assembly has no bonded network: every disc has fewer than two bonds; raise bond_gap or coordination");
+std::vector<int> unbonded(std::size_t discs, const Bonds& bonds) {
+  std::vector<char> bonded(discs, 0);
+  for (std::size_t c = 0; c < bonds.size(); ++c) bonded[bonds.i[c]] = bonded[bonds.j[c]] = 1;
+  std::vector<int> alone;
+  for (std::size_t d = 0; d < discs; ++d) {
+    if (!bonded[d]) alone.push_back(static_cast<int>(d));
   }
-  const auto networks = connected_components(discs, a.bonds, a.rattlers);
-  if (networks.size() == 1) return;
-  const auto smallest = std::min_element(networks.begin(), networks.end(), [](const auto& x, const auto& y) { return x.size() < y.size(); });
-  throw std::invalid_argument("the assembly falls apart into " + std::to_string(networks.size()) +
-                              " networks without a bond between them (the smallest has " + std::to_string(smallest->size()) +
-                              " discs, among them disc " + std::to_string(smallest->front()) +
-                              "); raise bond_gap or coordination, or name the missing bonds");
+  return alone;
 }
 
 }  // namespace
@@ -48,12 +44,12 @@ Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double de
   Assembly a;
   const std::size_t n = packing.size();
   if (rule == RattlerRule::peel) a.rattlers = find_rattlers(n, bonds);
+  if (rule == RattlerRule::apart) a.rattlers = unbonded(n, bonds);
   std::vector<char> is_rattler(n, 0);
   for (const int d : a.rattlers) is_rattler[d] = 1;
   std::vector<char> keep(bonds.size());
   for (std::size_t c = 0; c < bonds.size(); ++c) keep[c] = !is_rattler[bonds.i[c]] && !is_rattler[bonds.j[c]];
   a.bonds = select(bonds, keep);
-  require_one_network(a, n);
 
   a.thickness = thickness;
   a.density = density;
@@ -67,7 +63,22 @@ Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double de
     a.inertia[d] = 0.5 * a.mass[d] * r * r;
   }
   a.packing = std::move(packing);
+  if (rule != RattlerRule::apart) require_one_network(a);
   return a;
+}
+
+void require_one_network(const Assembly& a) {
+  const std::size_t discs = a.size();
+  if (a.rattlers.size() == discs) {
+    throw std::invalid_argument("the assembly has no bonded network: every disc has fewer than two bonds; raise bond_gap or coordination");
+  }
+  const auto networks = connected_components(discs, a.bonds, a.rattlers);
+  if (networks.size() == 1) return;
+  const auto smallest = std::min_element(networks.begin(), networks.end(), [](const auto& x, const auto& y) { return x.size() < y.size(); });
+  throw std::invalid_argument("the assembly falls apart into " + std::to_string(networks.size()) +
+                              " networks without a bond between them (the smallest has " + std::to_string(smallest->size()) +
+                              " discs, among them disc " + std::to_string(smallest->front()) +
+                              "); raise bond_gap or coordination, or name the missing bonds");
 }
 
 Bonds cut_at_edges(const Packing& packing, const Bonds& bonds, bool cut_x, bool cut_y) {

@@ -24,13 +24,17 @@ struct Assembly {
 
 enum class RattlerRule {
   peel,  ///< discs on fewer than two bonds are rattlers, repeatedly: for packings made by chance
-  none   ///< every disc belongs to the network: for packings that somebody laid out, chains included
+  none,  ///< every disc belongs to the network: for packings that somebody laid out, chains included
+  apart  ///< discs without a bond are rattlers, and there may be several networks, which new contacts may join
 };
 
 /// Takes the bonds of rattlers out and computes masses.
-/// Throws std::invalid_argument if what is left is not one connected network.
+/// Throws std::invalid_argument if what is left is not one connected network, unless the rule is `apart`.
 Assembly make_assembly(Packing packing, Bonds bonds, double thickness, double density,
                        RattlerRule rule = RattlerRule::none);
+
+/// Throws std::invalid_argument unless all discs but the rattlers hang together: where statics needs it.
+void require_one_network(const Assembly& assembly);
 
 /// The same packing cut free: the bonds that reach through the period in x (and y) are left out.
 /// Used for strips made from a periodic packing.

@@ -14,4 +14,7 @@ namespace ddem {
 /// it for equal materials.
 std::vector<double> normal_stiffnesses(const Assembly& assembly, const ContactParameters& contact);
 
+/// The same for two discs.
+double normal_stiffness(const ContactParameters& contact, double r_i, double r_j);
+
 }  // namespace ddem

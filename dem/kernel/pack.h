@@ -24,6 +24,9 @@ DDEM_INLINE Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p
 DDEM_INLINE void store(double* p, Pack v) { *reinterpret_cast<Pack*>(p) = v; }
 DDEM_INLINE Pack all(double x) { return Pack{x, x, x, x, x, x, x, x}; }
 
+/// The first where it is larger, else the second: a first that is no number counts for nothing.
+DDEM_INLINE Pack larger(Pack x, Pack y) { return x > y ? x : y; }
+
 DDEM_INLINE Pack square_root(Pack v) {
   for (int l = 0; l < kWidth; ++l) v[l] = std::sqrt(v[l]);
   return v;

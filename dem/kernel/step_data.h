@@ -44,6 +44,9 @@ struct StepData {
   double elasticity_direct, elasticity_coupling, elasticity_shear;  ///< V_p eps : C_p : eps by components of r eps
   double step_length, direction_weight;
 
+  // Watched runs: the largest speed^2 and (r |eps|)^2 of the discs of a range, at its first slice.
+  double *fastest, *most_strained;
+
   // Nonlinear kinematics, one value a stored half-bond: relative displacement and weighted rotation of the step before,
   // accumulated slip.
   double *previous_dx, *previous_dy, *previous_rotation, *slip;
@@ -58,6 +61,7 @@ struct StepFeatures {
   StrainCoupling strain = StrainCoupling::none;
   bool implicit = false;
   bool per_bond_stiffness = false;
+  bool watched = false;  ///< note the fastest and the most strained disc
 };
 
 /// Works on the slices [begin, end).

@@ -113,17 +113,44 @@ struct StepKernel {
             d.compliance_coupling * sum.sxx + d.compliance_direct * sum.syy, 0.5 * d.compliance_shear * sum.sxy};
   }
 
-  DDEM_INLINE static void relax_strain(const StepData& d, int p, const Triple& before, const Triple& e) {
-    store_triple(d.strain_next, p, combine(d.keep_strain, before, d.new_strain, e));
+  /// The largest of a sweep, for whoever watches what may close: compiled in where kWatched.
+  template <bool kWatched>
+  struct Watch {
+    Pack speed{}, strain{};
+    DDEM_INLINE void note_velocity(Pack vx, Pack vy) {
+      if constexpr (kWatched) speed = larger(vx * vx + vy * vy, speed);
+    }
+    DDEM_INLINE void note_strain(const Triple& e) {
+      if constexpr (kWatched) strain = larger(e.a * e.a + e.b * e.b + 2.0 * (e.c * e.c), strain);
+    }
+    void tell(double* at, Pack noted) const {
+      if constexpr (kWatched) {
+        double most = 0.0;
+        for (int l = 0; l < kWidth; ++l) most = noted[l] > most ? noted[l] : most;
+        *at = most;
+      }
+    }
+    void tell_speed(const StepData& d, int begin) const { tell(d.fastest + begin, speed); }
+    void tell_strain(const StepData& d, int begin) const { tell(d.most_strained + begin, strain); }
+  };
+
+  template <bool kWatched>
+  DDEM_INLINE static void relax_strain(const StepData& d, int p, const Triple& before, const Triple& e, Watch<kWatched>& watch) {
+    const Triple next = combine(d.keep_strain, before, d.new_strain, e);
+    watch.note_strain(next);
+    store_triple(d.strain_next, p, next);
   }
 
-  DDEM_INLINE static void kick_and_drift(const StepData& d, int p, const Triple& u, const Sums& sum) {
+  template <bool kWatched>
+  DDEM_INLINE static void kick_and_drift(const StepData& d, int p, const Triple& u, const Sums& sum, Watch<kWatched>& watch) {
     const auto kicked = [p](double* velocity, const double* kick, Pack force) DDEM_INLINE_LAMBDA {
       const Pack v = load(velocity + p) + load(kick + p) * force;
       store(velocity + p, v);
       return v;
     };
-    Triple next{u.a + d.dt * kicked(d.vx, d.kick_x, sum.fx), u.b + d.dt * kicked(d.vy, d.kick_y, sum.fy), Pack{}};
+    const Pack vx = kicked(d.vx, d.kick_x, sum.fx), vy = kicked(d.vy, d.kick_y, sum.fy);
+    watch.note_velocity(vx, vy);
+    Triple next{u.a + d.dt * vx, u.b + d.dt * vy, Pack{}};
     if constexpr (kRotation) next.c = u.c + d.dt * kicked(d.omega, d.kick_theta, sum.moment);
     store_triple(d.motion_next, p, next);
   }
@@ -170,63 +197,84 @@ struct StepKernel {
   }
 
   /// Forces from the strains at hand; lagged: and from these forces the strains to come.
-  template <bool kLagged>
+  template <bool kLagged, bool kWatched>
   static void step(const StepData& data, int begin, int end) {
     const StepData d = data;  // pointers in registers: no store can change them
+    Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<true, kLagged>(d),
-        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
-          kick_and_drift(d, p, own.motion, sum);
-          if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, sum));
+        [&d, &watch](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
+          kick_and_drift(d, p, own.motion, sum, watch);
+          if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, sum), watch);
         });
+    watch.tell_speed(d, begin);
+    if constexpr (kLagged) watch.tell_strain(d, begin);
   }
 
+  template <bool kWatched>
   static void evaluate(const StepData& data, int begin, int end) {
     const StepData d = data;
+    Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<false, true>(d),
-        [&d](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA { relax_strain(d, p, own.strain, strain_from(d, sum)); });
+        [&d, &watch](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
+          relax_strain(d, p, own.strain, strain_from(d, sum), watch);
+        });
+    watch.tell_strain(d, begin);
   }
 
   /// f = (V C)^-1 S K C u, the first approximation from zero, and the forces of rigid discs.
+  template <bool kWatched>
   static void source(const StepData& data, int begin, int end) {
     const StepData d = data;
+    Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.motion, p); },
         [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA { add<true, true>(d, rigid(d, k, own), k, sum); },
-        [&d](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
+        [&d, &watch](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
           store(d.rigid_fx + p, sum.fx);
           store(d.rigid_fy + p, sum.fy);
           if constexpr (kRotation) store(d.rigid_moment + p, sum.moment);
           const Triple f = strain_from(d, sum);
           store_triple(d.source, p, f);
-          store_triple(d.strain_next, p, {d.relaxation * f.a, d.relaxation * f.b, d.relaxation * f.c});
+          const Triple next{d.relaxation * f.a, d.relaxation * f.b, d.relaxation * f.c};
+          watch.note_strain(next);
+          store_triple(d.strain_next, p, next);
         });
+    watch.tell_strain(d, begin);
   }
 
   /// The next approximation, by the residual f - eps - T eps.
+  template <bool kWatched>
   static void iterate(const StepData& data, int begin, int end) {
     const StepData d = data;
+    Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<false, true>(d),
-        [&d](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
+        [&d, &watch](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
           const Triple rest = difference(difference(load_triple(d.source, p), e), strain_from(d, sum));
-          store_triple(d.strain_next, p, along(e, d.relaxation, rest));
+          const Triple next = along(e, d.relaxation, rest);
+          watch.note_strain(next);
+          store_triple(d.strain_next, p, next);
         });
+    watch.tell_strain(d, begin);
   }
 
   /// The motion under the forces of rigid discs, less what the strains take off them.
+  template <bool kWatched>
   static void respond(const StepData& data, int begin, int end) {
     const StepData d = data;
+    Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<true, false>(d),
-        [&d](int p, const Triple&, const Sums& off) DDEM_INLINE_LAMBDA {
+        [&d, &watch](int p, const Triple&, const Sums& off) DDEM_INLINE_LAMBDA {
           Sums sum;
           sum.fx = load(d.rigid_fx + p) - off.fx;
           sum.fy = load(d.rigid_fy + p) - off.fy;
           if constexpr (kRotation) sum.moment = load(d.rigid_moment + p) - off.moment;
-          kick_and_drift(d, p, load_triple(d.motion, p), sum);
+          kick_and_drift(d, p, load_triple(d.motion, p), sum, watch);
         });
+    watch.tell_speed(d, begin);
   }
 
   /// Conjugate gradients for (1 + T) eps = f, preconditioned with V C, in whose inner product 1 + T is symmetric:
@@ -283,21 +331,24 @@ struct StepKernel {
            d.elasticity_shear * (x.c * y.c);
   }
 
-  static StepKernels kernels(const StepFeatures& f) {
+  static StepKernels kernels(const StepFeatures& f) { return f.watched ? chosen<true>(f) : chosen<false>(f); }
+
+  template <bool kWatched>
+  static StepKernels chosen(const StepFeatures& f) {
     StepKernels k;
     if constexpr (kDeformable) {
       if constexpr (Kinematics::kLinear) {
         if (f.implicit) {
-          k.step = &step<false>;
-          k.source = &source, k.iterate = &iterate, k.respond = &respond;
+          k.step = &step<false, kWatched>;
+          k.source = &source<kWatched>, k.iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
           k.residual = &residual, k.apply = &apply, k.advance = &advance, k.turn = &turn;
           return k;
         }
       }
-      k.step = &step<true>;
-      k.evaluate = &evaluate;
+      k.step = &step<true, kWatched>;
+      k.evaluate = &evaluate<kWatched>;
     } else {
-      k.step = &step<false>;
+      k.step = &step<false, kWatched>;
     }
     return k;
   }

@@ -17,8 +17,11 @@ StateAudit::StateAudit(const Assembly& assembly, const ContactParameters& contac
       contact_(contact),
       deformation_(deformation),
       position_(std::move(position)),
+      disc_at_(position_.size()),
       normal_stiffness_(normal_stiffnesses(assembly, contact)),
-      volume_(particle_volumes(assembly, deformation)) {}
+      volume_(particle_volumes(assembly, deformation)) {
+  for (std::size_t d = 0; d < position_.size(); ++d) disc_at_[position_[d]] = static_cast<int>(d);
+}
 
 StateAudit::Overlaps StateAudit::rigid_overlaps(std::size_t c, const MotionView& u) const {
   const Bonds& b = assembly_.bonds;
@@ -99,7 +102,8 @@ double StateAudit::kinetic_energy(const VelocityView& v, const Load* load) const
   return sum;
 }
 
-Energies StateAudit::energies(const MotionView& now, const MotionView& next, const VelocityView& v, const StrainView& strain) const {
+Energies StateAudit::energies(const State& state) const {
+  const auto& [now, next, v, strain, closed] = state;
   const bool lagged = deformation_.scheme == Scheme::lagged;
   Energies e;
   double between = 0.0;  // the potential part of the invariant
@@ -112,13 +116,21 @@ Energies StateAudit::energies(const MotionView& now, const MotionView& next, con
     between += 0.5 * (f.normal * later.normal + f.tangential * later.tangential);
     add_force(c, f, load);
   }
+  for (const NewContact& c : closed) {
+    const double later = c.rigid_gap_at(next.values) - (lagged ? c.approach(strain.values) : 0.0);
+    e.contact += 0.5 * c.force() * c.gap;
+    between += 0.5 * c.force() * later;
+    const double fx = c.force() * c.nx, fy = c.force() * c.ny;
+    load.x[disc_at_[c.i]] += fx, load.y[disc_at_[c.i]] += fy;
+    load.x[disc_at_[c.j]] -= fx, load.y[disc_at_[c.j]] -= fy;
+  }
   if (deformation_.active()) e.particle = strain_energy(strain);
   e.kinetic = kinetic_energy(v, &load);
   e.invariant = kinetic_energy(v, nullptr) + between + (lagged ? e.particle : 0.0);
   return e;
 }
 
-TensorField StateAudit::stress(const MotionView& now, const StrainView& strain) const {
+TensorField StateAudit::stress(const MotionView& now, const StrainView& strain, const std::vector<NewContact>& closed) const {
   const std::size_t n = assembly_.size();
   TensorField s{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   const bool normal_only = deformation_.active() && deformation_.correction == Correction::normal_only_stress;
@@ -134,6 +146,15 @@ TensorField StateAudit::stress(const MotionView& now, const StrainView& strain) 
       s.xx[disc] += w * nx * fx;
       s.yy[disc] += w * ny * fy;
       s.xy[disc] += 0.5 * w * (nx * fy + ny * fx);
+    }
+  }
+  for (const NewContact& c : closed) {
+    for (const int place : {c.i, c.j}) {
+      const int disc = disc_at_[place];
+      const double w = c.stretch * radius(disc) / volume_[disc] * c.force();
+      s.xx[disc] += w * c.nx * c.nx;
+      s.yy[disc] += w * c.ny * c.ny;
+      s.xy[disc] += w * c.nx * c.ny;
     }
   }
   return s;

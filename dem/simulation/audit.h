@@ -13,6 +13,7 @@
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
 #include "dem/kernel/step_data.h"
+#include "dem/simulation/new_contact.h"
 
 namespace ddem {
 
@@ -39,7 +40,7 @@ struct VelocityView {
 /// J; all but `invariant` at the time of the step.
 struct Energies {
   double kinetic = 0.0;
-  double contact = 0.0;    ///< of the bonds: sum (k_n u_n^2 + k_t u_t^2) / 2, overlaps corrected by the strains
+  double contact = 0.0;    ///< of bonds and new contacts: sum (k_n u_n^2 + k_t u_t^2) / 2, overlaps corrected by the strains
   double particle = 0.0;   ///< of the discs: sum V_p eps : C_p : eps / 2
   double invariant = 0.0;  ///< see above
 };
@@ -54,12 +55,19 @@ class StateAudit {
   StateAudit(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation,
              std::vector<int> position);
 
-  /// `now`: t_n, `next`: t_{n+1}, velocities at n + 1/2. `strain` is read only for a deformable scheme.
-  Energies energies(const MotionView& now, const MotionView& next, const VelocityView& velocity, const StrainView& strain) const;
+  /// What was at work in a step: displacements at t_n and t_{n+1}, velocities at n + 1/2, strains (read only for a
+  /// deformable scheme), and the new contacts that were closed.
+  struct State {
+    MotionView now, next;
+    VelocityView velocity;
+    StrainView strain;
+    const std::vector<NewContact>& closed;
+  };
+  Energies energies(const State& state) const;
 
   /// sigma_p = (1/V_p) sum_c s_c (x) F_c, symmetrised, of the forces that the deformation law takes (for NN the normal
   /// ones; for rigid discs all): Pa, in the order of the assembly.
-  TensorField stress(const MotionView& now, const StrainView& strain) const;
+  TensorField stress(const MotionView& now, const StrainView& strain, const std::vector<NewContact>& closed) const;
 
  private:
   struct Overlaps {
@@ -79,7 +87,7 @@ class StateAudit {
   const Assembly& assembly_;
   ContactParameters contact_;
   DeformationParameters deformation_;
-  std::vector<int> position_;
+  std::vector<int> position_, disc_at_;  // places of discs, discs at places
   std::vector<double> normal_stiffness_, volume_;
 };
 

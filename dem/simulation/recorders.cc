@@ -53,7 +53,7 @@ void EnergyRecorder::after_step() {
   if (!active_ || !(first_undriven || n % every_ == 0 || n == last_)) return;
   const Stopwatch watch(seconds_);
   const StepData& d = stepper_.data();
-  const Energies e = audit_.energies(motion_before(d), motion_after(d), stepper_.velocities(), stepper_.strains_in_use());
+  const Energies e = audit_.energies({motion_before(d), motion_after(d), stepper_.velocities(), stepper_.strains_in_use(), stepper_.contacts_in_use()});
   samples_.push_back({static_cast<double>(n - 1) * time_step_, e});
   if (n < undriven_) return;
   if (!reference_) {
@@ -81,7 +81,7 @@ void SnapshotRecorder::after_step() {
   Snapshot s;
   s.time = static_cast<double>(stepper_.step() - 1) * input_.time_step;
   s.state = stepper_.state_of(u.values);
-  if (input_.contact.kinematics == Kinematics::linear) s.stress = audit_.stress(u, e);
+  if (input_.contact.kinematics == Kinematics::linear) s.stress = audit_.stress(u, e, stepper_.contacts_in_use());
   if (input_.deformation.active()) {
     const auto component = [&](int k) { return stepper_.over_radius(e.values + k, kQuad); };
     s.strain = {component(0), component(1), component(2)};

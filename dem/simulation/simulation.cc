@@ -100,6 +100,7 @@ class Overseer {
     result_.wall_seconds -= energies_.seconds() + snapshots_.seconds();
     result_.steps_done = stepper_.step();
     result_.final_state = stepper_.state();
+    result_.new_contacts = stepper_.new_contacts();
   }
 
  private:
@@ -120,19 +121,18 @@ void run_one_thread(Stepper& stepper, Overseer& overseer) {
 }
 
 /// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the stage.
-void run_threads(Stepper& stepper, Overseer& overseer, int threads) {
+void run_threads(Stepper& stepper, Overseer& overseer) {
   bool go_on = true;
-  std::barrier barrier(threads, [&]() noexcept { go_on = overseer.finish_stage(); });
+  std::barrier barrier(stepper.threads(), [&]() noexcept { go_on = overseer.finish_stage(); });
   const auto work = [&](int id) {
-    const int begin = static_cast<int>(static_cast<long>(stepper.slices()) * id / threads);
-    const int end = static_cast<int>(static_cast<long>(stepper.slices()) * (id + 1) / threads);
+    const int begin = stepper.range_begin(id), end = stepper.range_begin(id + 1);
     do {
       stepper.advance(begin, end);
       barrier.arrive_and_wait();
     } while (go_on);
   };
   std::vector<std::jthread> team;
-  for (int id = 1; id < threads; ++id) team.emplace_back(work, id);
+  for (int id = 1; id < stepper.threads(); ++id) team.emplace_back(work, id);
   work(0);
 }
 
@@ -151,11 +151,10 @@ SimulationResult simulate(const Assembly& assembly, const SimulationInput& input
   Overseer overseer(assembly, input, stepper, result);
   const auto start = std::chrono::steady_clock::now();
   if (input.steps > 0) {
-    const int threads = std::min(input.threads, std::max(1, stepper.slices()));
-    if (threads == 1) {
+    if (stepper.threads() == 1) {
       run_one_thread(stepper, overseer);
     } else {
-      run_threads(stepper, overseer, threads);
+      run_threads(stepper, overseer);
     }
   }
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

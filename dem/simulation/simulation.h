@@ -35,6 +35,13 @@ struct Receiver {
   std::vector<int> discs;
 };
 
+/// Whether discs that are not bonded may touch (new_contacts.h).
+enum class ContactWatch {
+  off,
+  bound,      ///< looked at only where a bound of what has moved says that some may have closed
+  every_step  ///< the same results at more work: to check the bound
+};
+
 struct SimulationInput {
   ContactParameters contact;
   DeformationParameters deformation;
@@ -48,6 +55,7 @@ struct SimulationInput {
   int energy_samples = 50;  ///< about so many over the run, and the last step
   int snapshots = 0;        ///< so many over the run, equally spaced, the last at its end
   int threads = 1;
+  ContactWatch new_contacts = ContactWatch::off;  ///< without friction; see ContactWatch
   /// Called now and then with the fraction done; return false to stop.
   std::function<bool(double)> on_progress;
 };
@@ -63,7 +71,9 @@ struct Breakdown {
   enum class Cause {
     diverged,               ///< displacements that are not finite, or far beyond what the load can cause
     strains_not_converged,  ///< conjugate gradients found no implicit strains
-    strains_indefinite      ///< the system of the implicit strains is not positive definite
+    strains_indefinite,     ///< the system of the implicit strains is not positive definite
+    contacts_undecided      ///< implicit: no set of closed contacts agrees with the strains that it causes, or one closes
+                            ///< where conjugate gradients find the strains, which take none in
   } cause = Cause::diverged;
   long step = 0;
   int disc = 0;
@@ -83,6 +93,12 @@ struct Snapshot {
   TensorField stress, strain;
 };
 
+/// New contacts of a run.
+struct NewContactCount {
+  long first_step = 0;
+  std::size_t most = 0;  ///< closed at once
+};
+
 struct SimulationResult {
   Signals signals;
   std::optional<Breakdown> breakdown;  ///< set: the run stopped there, its signals end before
@@ -94,6 +110,7 @@ struct SimulationResult {
   std::optional<double> energy_drift;
   std::vector<EnergySample> energy;  ///< likewise empty
   std::vector<Snapshot> snapshots;
+  std::optional<NewContactCount> new_contacts;  ///< empty where none closed
   InitialState final_state;  ///< displacements at the last step, velocities half a step before
 };
 

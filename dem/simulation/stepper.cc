@@ -31,16 +31,25 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
       drive_(input.drive),
-      implicit_(input.deformation.scheme == Scheme::implicit) {
+      implicit_(input.deformation.scheme == Scheme::implicit),
+      assembly_(a),
+      contact_(input.contact),
+      deformation_(input.deformation) {
   const bool uniform = input.contact.uniform();
   bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
                        input.contact.kinematics == Kinematics::nonlinear);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
+  const int threads = std::min(input.threads, std::max(1, bonds_.slices));
+  for (int k = 0; k <= threads; ++k) range_begin_.push_back(static_cast<int>(static_cast<long>(bonds_.slices) * k / threads));
   size_arrays(input);
   set_parameters(a, input);
   if (deformable_) prepare_strains(a, input);
   const bool nonlinear = input.contact.kinematics == Kinematics::nonlinear;
-  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform}, isa);
+  if (input.new_contacts != ContactWatch::off) {
+    watch_.emplace(a, input, position_);
+    for (auto* array : {&fastest_, &most_strained_}) array->assign(static_cast<std::size_t>(bonds_.slices), 0.0);
+  }
+  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform, watch_.has_value()}, isa);
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   start_leapfrog();
@@ -108,6 +117,11 @@ void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
 /// The strains first, then the motion. Lagged: further evaluations; implicit: source and iterations, or conjugate
 /// gradients.
 void Stepper::begin_step() {
+  if (watch_ && implicit_) recall_contacts();
+  begin_strains();
+}
+
+void Stepper::begin_strains() {
   stages_done_ = 0;
   if (gradients_) {
     begin_stage(Stage::residual);
@@ -120,6 +134,10 @@ void Stepper::begin_step() {
 
 void Stepper::begin_stage(Stage stage) {
   stage_ = stage;
+  if (watch_ && (stage == Stage::evaluate || stage == Stage::motion)) {
+    look_for_contacts();
+    if (implicit_ && !contacts_agree()) return begin_strains();
+  }
   if (stage == Stage::source || stage == Stage::iterate) data_.relaxation = relaxations_[stages_done_];
   switch (stage) {
     case Stage::evaluate: due_ = kernels_.evaluate; break;
@@ -135,6 +153,7 @@ void Stepper::begin_stage(Stage stage) {
 
 void Stepper::finish_strain_stage() {
   ++stages_done_;
+  if (watch_ && !gradients_) add_contact_strains();
   if (!gradients_) {
     swap_strains();
     begin_stage(stages_done_ == strain_stages_ ? Stage::motion : implicit_ ? Stage::iterate : Stage::evaluate);
@@ -145,6 +164,10 @@ void Stepper::finish_strain_stage() {
 }
 
 std::optional<Breakdown> Stepper::breakdown() const {
+  if (undecided_) {
+    const auto disc = std::find(position_.begin(), position_.end(), assumed_.empty() ? 0 : assumed_.front().i);
+    return Breakdown{Breakdown::Cause::contacts_undecided, step_number_, static_cast<int>(disc - position_.begin())};
+  }
   if (!gradients_ || !gradients_->breakdown()) return std::nullopt;
   const StrainBreakdown& b = *gradients_->breakdown();
   const auto disc = std::find(position_.begin(), position_.end(), b.place);
@@ -177,10 +200,13 @@ void Stepper::start_leapfrog() {
       advance(0, bonds_.slices);
       finish_strain_stage();
     }
+  } else if (watch_) {
+    look_for_contacts();
   }
   StepData d = data_;
   d.vx = vx.data(), d.vy = vy.data(), d.omega = omega.data();
   move_(d, 0, bonds_.slices);
+  if (watch_) push_from_rest(vx.data(), vy.data());
   for (std::size_t p = 0; p < padded_; ++p) {
     vx_[p] -= 0.5 * vx[p];
     vy_[p] -= 0.5 * vy[p];
@@ -199,6 +225,7 @@ bool Stepper::finish_stage() {
     finish_strain_stage();
     return false;
   }
+  if (watch_) finish_contacts();
   ++step_number_;
   if (drive_) impose(static_cast<double>(step_number_) * data_.dt, motion_next_);
   std::swap(motion_, motion_next_);
@@ -224,6 +251,7 @@ void Stepper::bind() {
   d.vx = vx_.data(), d.vy = vy_.data(), d.omega = omega_.data();
   d.kick_x = kick_x_.data(), d.kick_y = kick_y_.data(), d.kick_theta = kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
+  d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();
   d.previous_rotation = previous_rotation_.data(), d.slip = slip_.data();

@@ -9,6 +9,7 @@
 #include "dem/kernel/step_data.h"
 #include "dem/simulation/audit.h"
 #include "dem/simulation/conjugate_gradients.h"
+#include "dem/simulation/new_contacts.h"
 #include "dem/simulation/simulation.h"
 #include "dem/simulation/stage.h"
 #include "dem/simulation/strain_polynomial.h"
@@ -26,12 +27,18 @@ class Stepper {
   bool finish_stage();
 
   int slices() const { return bonds_.slices; }
+  /// Threads that share the slices, at most one a slice: thread k works on [range_begin(k), range_begin(k + 1)).
+  int threads() const { return static_cast<int>(range_begin_.size()) - 1; }
+  int range_begin(int thread) const { return range_begin_[thread]; }
   long step() const { return step_number_; }
   int place_of(int disc) const { return position_[disc]; }
   double radius(int disc) const { return radius_[disc]; }
   const std::vector<int>& order() const { return position_; }
 
   const StepData& data() const { return data_; }
+  /// The new contacts that pushed in the last step, and what they amounted to since the start.
+  const std::vector<NewContact>& contacts_in_use() const { return in_use_; }
+  const std::optional<NewContactCount>& new_contacts() const { return count_; }
   /// The strains that corrected the overlaps of the last step.
   StrainView strains_in_use() const { return {implicit_ ? strain_.data() : strain_next_.data()}; }
   VelocityView velocities() const { return {data_.vx, data_.vy, data_.omega, data_.kick_x, data_.kick_y, data_.kick_theta}; }
@@ -59,6 +66,15 @@ class Stepper {
   void begin_step();
   void begin_stage(Stage stage);
   void finish_strain_stage();
+  void begin_strains();
+  // New contacts, stepper_contacts.cc.
+  void look_for_contacts();
+  void recall_contacts();
+  bool contacts_agree();
+  void add_contact_strains();
+  void add_strain(const NewContact& contact, double force, double weight, AlignedVector<double>& to) const;
+  void push_from_rest(double* vx, double* vy) const;
+  void finish_contacts();
 
   SlicedBonds bonds_;
   std::vector<int> position_;
@@ -77,6 +93,18 @@ class Stepper {
   int strain_stages_ = 0, stages_done_ = 0;  // before the motion; of the step under way
   std::vector<double> relaxations_;
   std::optional<ConjugateGradients> gradients_;
+  // New contacts: those that pushed in the last step, and those that implicit strains are sought with.
+  const Assembly& assembly_;
+  const ContactParameters contact_;
+  const DeformationParameters deformation_;
+  std::optional<NewContacts> watch_;
+  std::vector<int> range_begin_;  // first slice of each thread, and the end
+  AlignedVector<double> fastest_, most_strained_;
+  double largest_strain_ = 0.0;
+  std::vector<NewContact> in_use_, assumed_;
+  std::optional<NewContactCount> count_;
+  bool contacts_in_polynomial_ = false, undecided_ = false;
+  int decisions_ = 0;
   long step_number_ = 0;
 };
 

@@ -47,6 +47,14 @@ void print_summary(const DemRun& run) {
   }
 }
 
+/// On standard error, that nobody takes a run with new contacts for one of bonds alone.
+void tell_of_contacts(const DemRun& run) {
+  if (const auto& c = run.result.new_contacts) {
+    fmt::print(stderr, "ddem: new contacts from step {} on (t = {:.4g} s), {} at once at most\n", c->first_step,
+               static_cast<double>(c->first_step) * run.time_step, c->most);
+  }
+}
+
 int run(const Options& o) {
   const Scene scene = load_scene(o.scene, Purpose::simulation);
   check_outputs({o.hdf5, o.csv}, scene);
@@ -64,6 +72,7 @@ int run(const Options& o) {
   }
   const DemRun run = run_scene(scene, options);
   for (const std::string& warning : run.warnings) fmt::print(stderr, "ddem: warning: {}\n", warning);
+  tell_of_contacts(run);
   if (o.json) fmt::print("{}", to_text(run_json(run)));
   if (run.result.breakdown) {
     const Breakdown& b = *run.result.breakdown;

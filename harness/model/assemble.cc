@@ -148,15 +148,21 @@ Bonding bonding_with(const Scene& scene, const Packing& packing, Periodicity per
   return b;
 }
 
+/// Bonds that somebody lists may leave discs and pieces apart, if these can touch.
+RattlerRule rattler_rule(const Scene& scene) {
+  if (std::holds_alternative<RandomPacking>(scene.assembly.packing)) return RattlerRule::peel;
+  const bool listed = std::holds_alternative<BondFile>(scene.assembly.bonding);
+  const bool may_touch = scene.contact && scene.contact->new_contacts == NewContacts::automatic;
+  return listed && may_touch ? RattlerRule::apart : RattlerRule::none;
+}
+
 ddem::Assembly assembly_with(const Scene& scene, Periodicity periodic) {
   Packing packing = packing_with(scene, periodic);
   return naming_scene(scene, bonding_key(scene), [&] {
     const Bonds bonds = cut_at_edges(packing, bonding_with(scene, packing, periodic).bonds, !periodic.x, !periodic.y);
     if (!periodic.x) packing.period.x = 0.0;
     if (!periodic.y) packing.period.y = 0.0;
-    const bool by_chance = std::holds_alternative<RandomPacking>(scene.assembly.packing);
-    return make_assembly(packing, bonds, scene.assembly.thickness, scene.material.value().density,
-                         by_chance ? RattlerRule::peel : RattlerRule::none);
+    return make_assembly(packing, bonds, scene.assembly.thickness, scene.material.value().density, rattler_rule(scene));
   });
 }
 
@@ -169,6 +175,14 @@ Bonding bonding_of(const Scene& scene, const Packing& packing) {
 }
 
 ddem::Assembly build_assembly(const Scene& scene) { return assembly_with(scene, scene.assembly.periodic); }
+
+ddem::Assembly build_network(const Scene& scene) {
+  ddem::Assembly a = build_assembly(scene);
+  return naming_scene(scene, bonding_key(scene), [&] {
+    require_one_network(a);
+    return std::move(a);
+  });
+}
 
 std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene) {
   if (scene.assembly.periodic.y) return build_assembly(scene);

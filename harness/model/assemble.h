@@ -27,6 +27,9 @@ Bonding bonding_of(const Scene& scene, const Packing& packing);
 /// edge which is not periodic are cut. Throws InputError.
 ddem::Assembly build_assembly(const Scene& scene);
 
+/// The same, in one piece: for statics. Bonds that the scene lists may leave pieces apart, which then is an InputError.
+ddem::Assembly build_network(const Scene& scene);
+
 /// The same material without free edges above and below: the random packing or a lattice closed in y. Empty for a
 /// packing from a file that does not close: without a width to serve as its period, with bonds of its own, or whose
 /// discs would overlap through the period. Of a packing between four flat walls the counterpart is another packing of the

@@ -114,6 +114,8 @@ BreakdownText describe(const Breakdown& b, const Scene& scene) {
       return {"the implicit strains did not converge", "raise deformation.tolerance, stiffen the discs (young_modulus), or use solver = \"polynomial\""};
     case Breakdown::Cause::strains_indefinite:
       return {"the system of the implicit strains is not positive definite", "lower the time step: the motion is not finite any more, or close to it"};
+    case Breakdown::Cause::contacts_undecided:
+      return {"new contacts and implicit strains found no agreement", "use solver = \"polynomial\", lower the amplitude, or set contact.new_contacts = \"off\""};
   }
   return {};
 }
@@ -136,6 +138,7 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   in.drive = edge_drive(scene, run.assembly);
   in.sample_every = static_cast<int>(scene.time.sample_every);
   in.threads = static_cast<int>(scene.run.threads);
+  if (scene.contact.value().new_contacts == NewContacts::automatic) in.new_contacts = ContactWatch::bound;
   in.on_progress = options.on_progress;
   in.energy_samples = options.energy_samples;
   in.snapshots = options.snapshots;

@@ -36,15 +36,23 @@ void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const Pro
   }
 }
 
+const char* status_of(Breakdown::Cause cause) {
+  switch (cause) {
+    case Breakdown::Cause::diverged: return "diverged";
+    case Breakdown::Cause::strains_not_converged: return "strains not converged";
+    case Breakdown::Cause::strains_indefinite: return "strains indefinite";
+    case Breakdown::Cause::contacts_undecided: return "contacts undecided";
+  }
+  return "failed";
+}
+
 }  // namespace
 
 Json run_json(const DemRun& run) {
   const SimulationResult& r = run.result;
   Json j{{"status", "ok"}};
   if (r.breakdown) {
-    j["status"] = r.breakdown->cause == Breakdown::Cause::diverged                ? "diverged"
-                  : r.breakdown->cause == Breakdown::Cause::strains_not_converged ? "strains not converged"
-                                                                                  : "strains indefinite";
+    j["status"] = status_of(r.breakdown->cause);
     j["diverged_step"] = r.breakdown->step;
     j["diverged_disc"] = r.breakdown->disc;
   }
@@ -57,6 +65,7 @@ Json run_json(const DemRun& run) {
   j["time_step"] = run.time_step;
   j["steps"] = r.steps_done;
   j["wall_seconds"] = r.wall_seconds;
+  if (r.new_contacts) j["new_contacts"] = {{"first_step", r.new_contacts->first_step}, {"most_at_once", r.new_contacts->most}};
   if (r.steps_done > 0) {
     j["nanoseconds_per_bond_step"] =
         1e9 * r.wall_seconds / (static_cast<double>(run.assembly.bonds.size()) * static_cast<double>(r.steps_done));

@@ -65,7 +65,7 @@ std::optional<double> SceneModuli::speed_of(Wave wave, bool periodic) const {
 }
 
 SceneModuli scene_moduli(const Scene& scene) {
-  const ddem::Assembly a = build_assembly(scene);
+  const ddem::Assembly a = build_network(scene);
   SceneModuli m;
   m.discs = static_cast<int>(a.size());
   m.bonds = static_cast<int>(a.bonds.size());
