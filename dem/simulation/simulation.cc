@@ -10,6 +10,7 @@
 
 #include "dem/simulation/recorders.h"
 #include "dem/simulation/stepper.h"
+#include "dem/spectra/spectra.h"
 
 namespace ddem {
 namespace {
@@ -101,6 +102,7 @@ class Overseer {
     result_.steps_done = stepper_.step();
     result_.final_state = stepper_.state();
     result_.new_contacts = stepper_.new_contacts();
+    if (result_.new_contacts) result_.new_contacts->critical_time_step = 2.0 / largest_frequency(stepper_.all_closed(), in_.contact, in_.held);
   }
 
  private:

@@ -97,6 +97,8 @@ struct Snapshot {
 struct NewContactCount {
   long first_step = 0;
   std::size_t most = 0;  ///< closed at once
+  /// 2/omega_max were every pair near enough to be watched closed, s: with some of them closed the step is safe below it.
+  double critical_time_step = 0.0;
 };
 
 struct SimulationResult {

@@ -39,6 +39,7 @@ class Stepper {
   /// The new contacts that pushed in the last step, and what they amounted to since the start.
   const std::vector<NewContact>& contacts_in_use() const { return in_use_; }
   const std::optional<NewContactCount>& new_contacts() const { return count_; }
+  Assembly all_closed() const { return watch_->all_closed(); }
   /// The strains that corrected the overlaps of the last step.
   StrainView strains_in_use() const { return {implicit_ ? strain_.data() : strain_next_.data()}; }
   VelocityView velocities() const { return {data_.vx, data_.vy, data_.omega, data_.kick_x, data_.kick_y, data_.kick_theta}; }

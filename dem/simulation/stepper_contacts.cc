@@ -135,7 +135,7 @@ void Stepper::finish_contacts() {
   }
   watch_->moved(distance);
   if (in_use_.empty()) return;
-  if (!count_) count_ = NewContactCount{step_number_, 0};
+  if (!count_) count_ = NewContactCount{step_number_, 0, 0.0};
   count_->most = std::max(count_->most, in_use_.size());
 }
 

@@ -200,7 +200,7 @@ Verdict energy_verdict(const SchemeStudy& study) {
     const bool gradients = c.scheme.ends_with("gradients");
     if (c.scheme.starts_with("lagged")) continue;
     v.criteria.push_back(judge(fmt::format("energy drift, {}", c.scheme), c.drift, {0.0, 0.0, gradients ? 1e-3 : 1e-12}, "",
-                               gradients ? "strains right to a residual of 2e-4" : "leapfrog with a symmetric stiffness conserves its invariant; round-off of 10000 steps"));
+                               gradients ? "strains right to a residual of 1e-4" : "leapfrog with a symmetric stiffness conserves its invariant; round-off of 10000 steps"));
   }
   conclude_study(v);
   return v;

@@ -152,6 +152,11 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   if (options.warn) warn_of_instability(scene, run);
 
   run.result = simulate(run.assembly, in);
+  if (const auto& c = run.result.new_contacts; c && options.warn && run.time_step > c->critical_time_step) {
+    run.warnings.push_back(fmt::format("new contacts have closed, and were all that are near to close, the critical step would be "
+                                       "{:.4g} s; this step is {:.4g} s: lower step_fraction by {:.3g} to be sure",
+                                       c->critical_time_step, run.time_step, c->critical_time_step / run.time_step));
+  }
   if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {
     run.measurement = measure_wave(wave_component(run.result.signals, *run.wave),
                                    run.time_step * static_cast<double>(in.sample_every), run.layout, run.context);

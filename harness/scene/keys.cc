@@ -111,7 +111,7 @@ constexpr KeySpec keys[] = {
     choice("contact", "kinematics", "linear | nonlinear", "\"linear\"",
            "small displacements, or current geometry with incremental shear"),
     choice("contact", "new_contacts", "auto | off", "\"auto\"",
-           "whether discs that are not bonded repel when they meet"),
+           "whether discs that are not bonded repel when they meet, with the k_n of a bond and without friction"),
 
     choice("deformation", "scheme", "none | lagged | implicit", "\"lagged\"",
            "none: plain DEM; lagged: the published scheme; implicit: strains and forces of the same step"),
