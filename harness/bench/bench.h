@@ -37,6 +37,10 @@ std::size_t bench_work(const BenchPlan& plan);
 
 BenchResults run_bench(const BenchPlan& plan, const std::function<void()>& progress);
 
+/// Work-precision in a second or so: coarse meshes, one size of discs, each run once. Without the finite elements where
+/// ddem-fem is missing. A measurement that fails has no points.
+std::vector<PrecisionPoint> measure_briefly();
+
 /// kernels, work_precision, peers (with peers_reason where there are none), triad_gb_per_s; provenance beside them.
 Json bench_json(const BenchResults& results);
 

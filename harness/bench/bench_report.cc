@@ -98,6 +98,13 @@ reports::Figure precision_figure(const std::vector<PrecisionPoint>& points) {
   return figure;
 }
 
+reports::Section precision_section(const std::vector<PrecisionPoint>& points) {
+  return {.heading = "Run time against error",
+          .paragraphs = {"A small measurement among the campaign's other runs, which slow it down; \"ddem bench\" takes more meshes, sizes and "
+                         "repetitions, times every law and compares with LAMMPS. Seconds are not judged."},
+          .figures = {precision_figure(points)}};
+}
+
 reports::Report bench_report(const BenchResults& r) {
   reports::Report report;
   report.title = "ddem bench";
