@@ -13,6 +13,15 @@ namespace {
 
 constexpr std::size_t kSchemes = 3;  // rigid, lagged, implicit
 
+void measure_kernels(const BenchPlan& plan, BenchResults& results, const std::function<void()>& progress) {
+  results.kernels = time_kernels(plan.kernel_plans, progress);
+  try {
+    results.fem_kernels = time_fem(plan.fem_kernels, progress);
+  } catch (const MachineError& error) {  // built without deal.II
+    results.fem_failure = error.what();
+  }
+}
+
 void measure_precision(const BenchPlan& plan, BenchResults& results, const std::function<void()>& progress) {
   try {
     results.work_precision = measure_fem(plan.fem_meshes, plan.fem_repetitions, progress);
@@ -33,6 +42,17 @@ Json kernel_json(const KernelTime& k) {
           {"best_nanoseconds_per_bond_step", k.best},
           {"over_dem", k.over_dem},
           {"rounds", k.rounds}};
+}
+
+Json fem_kernel_json(const FemKernelTime& k) {
+  return {{"degree", k.mesh.degree},
+          {"elements", k.mesh.elements},
+          {"dofs", k.dofs},
+          {"steps", k.steps},
+          {"threads", k.threads},
+          {"dof_steps_per_second", k.dof_steps_per_second},
+          {"over_one_thread", k.over_one_thread},
+          {"same_bits", k.same_bits}};
 }
 
 Json precision_json(const PrecisionPoint& p) {
@@ -66,7 +86,7 @@ Json peer_json(const PeerTime& p) {
 
 std::size_t bench_work(const BenchPlan& plan) {
   std::size_t work = 1;
-  if (plan.kernels) work += plan.kernel_plans.size();
+  if (plan.kernels) work += plan.kernel_plans.size() + static_cast<std::size_t>(plan.fem_kernels.rounds);
   if (plan.work_precision) work += static_cast<std::size_t>(plan.fem_repetitions) + kSchemes * plan.discs.columns.size();
   if (plan.peers) work += plan.peer_plans.size();
   return work;
@@ -79,7 +99,7 @@ BenchResults run_bench(const BenchPlan& plan, const std::function<void()>& progr
   results.triad_one_thread = triad_gb_per_s(1);
   results.triad = std::max(results.triad_one_thread, triad_gb_per_s(results.triad_threads));
   progress();
-  if (plan.kernels) results.kernels = time_kernels(plan.kernel_plans, progress);
+  if (plan.kernels) measure_kernels(plan, results, progress);
   if (plan.work_precision) measure_precision(plan, results, progress);
   results.peers.reason = "not asked for";
   if (plan.peers) results.peers = time_peers(plan.peer_plans, progress);
@@ -91,15 +111,19 @@ std::vector<PrecisionPoint> measure_briefly() {
   const std::vector<FemMesh> meshes{{1, {66, 8}}, {1, {132, 16}}, {2, {33, 4}}, {2, {66, 8}}, {2, {132, 16}}, {4, {17, 2}},
                                     {4, {33, 4}}, {4, {66, 8}},   {8, {8, 1}},  {8, {17, 2}}, {8, {33, 4}}};
   std::vector<PrecisionPoint> points;
-  const auto add = [&](const auto& measure) {
+  const auto add = [&](const char* solver, const auto& measure) {
     try {
       const std::vector<PrecisionPoint> more = measure();
       points.insert(points.end(), more.begin(), more.end());
-    } catch (const std::exception&) {  // it judges nothing: no reason to lose a campaign
+    } catch (const std::exception& error) {  // it judges nothing: no reason to lose a campaign
+      PrecisionPoint failed;
+      failed.solver = solver;
+      failed.status = error.what();
+      points.push_back(failed);
     }
   };
-  add([&] { return measure_fem(meshes, 1, [] {}); });
-  add([&] { return measure_discs({{62}, {1.0, 0.5, 0.2, 0.05}, 0.0}, [] {}); });
+  add("FE", [&] { return measure_fem(meshes, 1, [] {}); });
+  add("DEM", [&] { return measure_discs({{62}, {1.0, 0.5, 0.2, 0.05}, 0.0}, [] {}); });
   return points;
 }
 
@@ -108,9 +132,11 @@ Json bench_json(const BenchResults& r) {
   for (const auto& [key, value] : provenance()) j["provenance"][key] = value;
   j["kernels"] = Json::array();
   for (const KernelTime& k : r.kernels) j["kernels"].push_back(kernel_json(k));
+  j["fem_kernels"] = Json::array();
+  for (const FemKernelTime& k : r.fem_kernels) j["fem_kernels"].push_back(fem_kernel_json(k));
   j["work_precision"] = Json::array();
   for (const PrecisionPoint& p : r.work_precision) j["work_precision"].push_back(precision_json(p));
-  if (!r.fem_failure.empty()) j["work_precision_reason"] = r.fem_failure;
+  if (!r.fem_failure.empty()) j["fem_reason"] = r.fem_failure;
   j["peers"] = Json::array();
   for (const PeerTime& p : r.peers.times) j["peers"].push_back(peer_json(p));
   if (!r.peers.reason.empty()) j["peers_reason"] = r.peers.reason;

@@ -28,7 +28,7 @@ template <class Name>
 void add_series(reports::Plot& plot, const std::vector<PrecisionPoint>& points, const Name& name, double PrecisionPoint::* error) {
   for (const PrecisionPoint& p : points) {
     const std::string called = name(p);
-    if (called.empty()) continue;
+    if (called.empty() || p.steps == 0) continue;
     auto series = std::find_if(plot.series.begin(), plot.series.end(), [&](const auto& s) { return s.name == called; });
     if (series == plot.series.end()) {
       plot.series.push_back({.name = called, .kind = reports::SeriesKind::line_markers, .color = color_of(p)});
@@ -52,6 +52,16 @@ reports::Table kernel_table(const std::vector<KernelTime>& kernels) {
   t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best round", "ns", 3}, {"over DEM", "", 3}};
   for (const KernelTime& k : kernels) {
     t.rows.push_back({k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem});
+  }
+  return t;
+}
+
+reports::Table fem_kernel_table(const std::vector<FemKernelTime>& kernels) {
+  reports::Table t;
+  t.caption = "Finite elements, with critical step and receivers: best of the rounds.";
+  t.columns = {{"degree"}, {"elements"}, {"dofs", "", 7}, {"threads"}, {"speed", "million dof-steps per second", 3}, {"over one thread", "", 3}, {"bits of one thread"}};
+  for (const FemKernelTime& k : kernels) {
+    t.rows.push_back({k.mesh.degree, fmt::format("{} x {}", k.mesh.elements[0], k.mesh.elements[1]), k.dofs, k.threads, 1e-6 * k.dof_steps_per_second, k.over_one_thread, k.same_bits ? "yes" : "no"});
   }
   return t;
 }
@@ -99,10 +109,14 @@ reports::Figure precision_figure(const std::vector<PrecisionPoint>& points) {
 }
 
 reports::Section precision_section(const std::vector<PrecisionPoint>& points) {
-  return {.heading = "Run time against error",
+  reports::Section section{.heading = "Run time against error",
           .paragraphs = {"A small measurement among the campaign's other runs, which slow it down; \"ddem bench\" takes more meshes, sizes and "
                          "repetitions, times every law and compares with LAMMPS. Seconds are not judged."},
           .figures = {precision_figure(points)}};
+  for (const PrecisionPoint& p : points) {
+    if (p.status != "ok") section.paragraphs.push_back(fmt::format("{} {} {}: {}", p.solver, p.scheme, p.mesh, p.status));
+  }
+  return section;
 }
 
 reports::Report bench_report(const BenchResults& r) {
@@ -112,6 +126,7 @@ reports::Report bench_report(const BenchResults& r) {
                                 "at this hour; ratios between what ran in turns travel better.",
                                 r.triad_one_thread, r.triad, r.triad_threads)};
   if (!r.kernels.empty()) report.sections.push_back({.heading = "Cost of a bond and step", .tables = {kernel_table(r.kernels)}});
+  if (!r.fem_kernels.empty()) report.sections.push_back({.heading = "Speed of the finite elements", .tables = {fem_kernel_table(r.fem_kernels)}});
   if (!r.work_precision.empty()) {
     reports::Section section{.heading = "Work-precision", .figures = {precision_figure(r.work_precision)}, .tables = {precision_table(r.work_precision)}};
     if (!r.fem_failure.empty()) section.paragraphs.push_back("No finite elements: " + r.fem_failure);

@@ -28,6 +28,14 @@ void print_kernels(const std::vector<bench::KernelTime>& kernels) {
   }
 }
 
+void print_fem_kernels(const std::vector<bench::FemKernelTime>& kernels) {
+  for (const bench::FemKernelTime& k : kernels) {
+    fmt::print("\nfinite elements, degree {} on {} x {}, {} dofs, threads {}: {:.0f} million dof-steps a second ({:.2f} times one thread, {} bits)\n",
+               k.mesh.degree, k.mesh.elements[0], k.mesh.elements[1], k.dofs, k.threads, 1e-6 * k.dof_steps_per_second, k.over_one_thread,
+               k.same_bits ? "the same" : "OTHER");
+  }
+}
+
 void print_precision(const std::vector<bench::PrecisionPoint>& points) {
   if (points.empty()) return;
   fmt::print("\n{:<6} {:<10} {:<9} {:>13} {:>6} {:>10} {:>10} {:>13}\n", "solver", "scheme", "mesh", "discs or dofs", "step", "seconds", "error", "to continuum");
@@ -74,6 +82,7 @@ int run(const Options& o) {
   }
   fmt::print("triad: {:.1f} GB/s with one thread, {:.1f} at most ({} threads)\n", results.triad_one_thread, results.triad, results.triad_threads);
   print_kernels(results.kernels);
+  print_fem_kernels(results.fem_kernels);
   print_precision(results.work_precision);
   if (!results.fem_failure.empty()) fmt::print("\nno finite elements: {}\n", results.fem_failure);
   if (plan.peers) print_peers(results.peers);
@@ -86,7 +95,7 @@ int run(const Options& o) {
 void add_bench_command(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
-  command->footer("kernels         every contact law and scheme, 682, 1e5 and 1e6 discs, one and two threads\n"
+  command->footer("kernels         every contact law and scheme, 682, 1e5 and 1e6 discs, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
                   "peers           LAMMPS (lmp on the PATH; Debian: lammps) on the same discs, where it is installed\n"
                   "Without --only: all of it, in two minutes or less. Times are those of a machine that does nothing else.");

@@ -13,6 +13,7 @@ namespace {
 BenchPlan small_plan() {
   BenchPlan plan;
   plan.kernel_plans = {{120, 10, 2, false, false, {1}}};
+  plan.fem_kernels = {{{4, {16, 2}}}, {1, 2}, 5e-6, 1};
   plan.discs = {{16}, {0.5}, 0.0};
   plan.fem_meshes = {{2, {33, 1}}};
   plan.fem_repetitions = 1;
@@ -24,7 +25,7 @@ TEST(Bench, HasItsPartsAsJson) {
   std::size_t heard = 0;
   const BenchPlan plan = small_plan();
   const BenchResults results = run_bench(plan, [&] { ++heard; });
-  EXPECT_EQ(heard, results.fem_failure.empty() ? bench_work(plan) : bench_work(plan) - 1);
+  EXPECT_EQ(heard, results.fem_failure.empty() ? bench_work(plan) : bench_work(plan) - 2);
   const Json j = Json::parse(to_text(bench_json(results)));  // to_text throws on numbers that are none
   ASSERT_EQ(j["kernels"].size(), 2u);
   for (const char* key : {"law", "discs", "threads", "nanoseconds_per_bond_step"}) EXPECT_TRUE(j["kernels"][0].contains(key)) << key;
@@ -33,6 +34,14 @@ TEST(Bench, HasItsPartsAsJson) {
     for (const char* key : {"solver", "scheme", "discs_or_dofs", "step_fraction", "seconds", "error"}) EXPECT_TRUE(p.contains(key)) << key;
     EXPECT_GT(p["seconds"].get<double>(), 0.0);
     EXPECT_GT(p["error"].get<double>(), 0.0);
+  }
+  if (results.fem_failure.empty()) {
+    ASSERT_EQ(j["fem_kernels"].size(), 2u);
+    for (const auto& k : j["fem_kernels"]) {
+      EXPECT_GT(k["dof_steps_per_second"].get<double>(), 0.0);
+      EXPECT_TRUE(k["same_bits"].get<bool>());
+    }
+    EXPECT_EQ(j["fem_kernels"][0]["over_one_thread"], 1.0);
   }
   EXPECT_EQ(j["peers"], Json::array());
   EXPECT_EQ(j["peers_reason"], "not asked for");

@@ -1,0 +1,59 @@
+#include "harness/bench/fem_kernels.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "harness/io/errors.h"
+
+namespace ddem::harness::bench {
+namespace {
+
+constexpr int kSampleEvery = 50;  // the filter at the receivers is not what is timed
+
+}  // namespace
+
+FemKernelPlan fem_kernel_plan() {
+  FemKernelPlan plan{{{4, {66, 8}}, {8, {33, 4}}}, {1}, 40e-6, 3};
+  if (std::thread::hardware_concurrency() > 1) plan.threads.push_back(2);
+  return plan;
+}
+
+std::vector<FemKernelTime> time_fem(const FemKernelPlan& plan, const std::function<void()>& progress) {
+  std::vector<FemCase> cases;
+  for (const FemMesh& mesh : plan.meshes) {
+    cases.push_back(pulse_case(mesh, Wave::shear));
+    cases.back().end = plan.end;
+    cases.back().sample_every = kSampleEvery;
+  }
+  // [threads][mesh]
+  std::vector<std::vector<FemKernelTime>> times(plan.threads.size(), std::vector<FemKernelTime>(cases.size()));
+  std::vector<FemResult> alone;
+  for (int round = 0; round < plan.rounds; ++round) {
+    for (std::size_t t = 0; t < plan.threads.size(); ++t) {
+      const std::vector<FemResult> results = run_fem(cases, {}, plan.threads[t]);
+      if (t == 0) alone = results;
+      for (std::size_t k = 0; k < cases.size(); ++k) {
+        const FemResult& r = results[k];
+        if (r.status != "ok") throw SolverError("ddem-fem: " + r.status);
+        FemKernelTime& time = times[t][k];
+        time.mesh = plan.meshes[k];
+        time.threads = plan.threads[t];
+        time.dofs = static_cast<std::size_t>(r.dofs);
+        time.steps = r.steps;
+        time.dof_steps_per_second = std::max(time.dof_steps_per_second, static_cast<double>(r.dofs) * static_cast<double>(r.steps) / r.solve_seconds);
+        time.same_bits = time.same_bits && r.point_uy == alone[k].point_uy;
+      }
+    }
+    progress();
+  }
+  std::vector<FemKernelTime> all;
+  for (const auto& of_threads : times) {
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      all.push_back(of_threads[k]);
+      all.back().over_one_thread = of_threads[k].dof_steps_per_second / times.front()[k].dof_steps_per_second;
+    }
+  }
+  return all;
+}
+
+}  // namespace ddem::harness::bench
