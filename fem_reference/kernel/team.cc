@@ -5,9 +5,10 @@
 namespace ddem::fem {
 namespace {
 
-// A meeting comes within microseconds, unless the machine is busy with something else.
+// A meeting comes within microseconds, unless the machine is busy with something else: then whoever is late may need this
+// very core. A thousand pauses are some ten microseconds.
 void wait_while(const std::atomic<unsigned>& value, unsigned old) {
-  for (int spin = 0; spin < 10'000; ++spin) {
+  for (int spin = 0; spin < 1000; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
 #if defined(__x86_64__)
     __builtin_ia32_pause();

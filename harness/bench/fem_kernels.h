@@ -25,6 +25,7 @@ struct FemKernelPlan {
   std::vector<int> threads;  ///< the first is 1
   double end = 0.0;          ///< s; the shear pulse of fem_precision.h
   int rounds = 0;
+  int repetitions = 0;  ///< in a round: short runs, one of which other processes may leave alone
 };
 
 /// Degrees 4 and 8 with 17k degrees of freedom.

@@ -86,7 +86,7 @@ double median(std::vector<double> values) {
 std::vector<KernelPlan> kernel_plans() {
   std::vector<int> threads{1};
   if (std::thread::hardware_concurrency() > 1) threads.push_back(2);
-  return {{682, 1500, 15, true, true, threads}, {100000, 12, 7, true, false, threads}, {1000000, 4, 5, false, false, threads}};
+  return {{682, 1500, 15, true, true, threads}, {100000, 12, 5, true, false, threads}, {1000000, 4, 3, false, false, threads}};
 }
 
 std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const std::function<void()>& progress) {
