@@ -50,7 +50,7 @@ CaseResult run_case(const StripCase& strip, const StripModel& model, Team& team)
   if (strip.mesh.empty() && nx >= columns_to_cut && free_end) {
     // Each of several processes finds the same.
     result.critical_time_step =
-        critical_time_step({strip.degree, nx, ny, strip.length / nx, strip.width / ny, strip.periodic}, material);
+        critical_time_step({strip.degree, nx, ny, strip.length / nx, strip.width / ny, strip.periodic}, material, team);
   } else {
     result.critical_time_step = critical_time_step(stiffness, inverse, keys_by_place(strip, model));
   }

@@ -1,9 +1,9 @@
 #include "fem_reference/kernel/critical_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -131,19 +131,24 @@ double critical_time_step(const ElasticOperator& stiffness, std::span<const doub
   return 2.0 / std::sqrt(largest_squared_frequency(stiffness, inverse_mass, node_keys));
 }
 
-double critical_time_step(const RectangleStrip& strip, const PlaneMaterial& material) {
+double critical_time_step(const RectangleStrip& strip, const PlaneMaterial& material, Team& team) {
   const unsigned pieces = strip.nx / (columns_to_cut / 2);
   if (pieces == 0) throw std::invalid_argument("a strip of so few columns is not to be cut");
-  double largest = 0.0;
-  for (const unsigned columns : std::set{strip.nx / pieces, (strip.nx + pieces - 1) / pieces}) {
-    RectangleStrip piece = strip;
-    piece.nx = columns;
-    const ElasticOperator stiffness(mesh_of(piece), material);
-    std::vector<double> inverse_mass(stiffness.vector_size(), 0.0);
-    for (std::size_t k = 0; k < 2 * stiffness.node_count(); ++k) inverse_mass[k] = 1.0 / stiffness.mass()[k / 2];
-    largest = std::max(largest, largest_squared_frequency(stiffness, inverse_mass));
-  }
-  return 2.0 / std::sqrt(largest);
+  const std::array<unsigned, 2> columns{strip.nx / pieces, (strip.nx + pieces - 1) / pieces};
+  const std::size_t sizes = columns[0] == columns[1] ? 1 : 2;
+  std::array<double, 2> largest{};
+  team.run([&](int thread) {
+    const auto [first, last] = team.part(sizes, thread);
+    for (std::size_t k = first; k < last; ++k) {
+      RectangleStrip piece = strip;
+      piece.nx = columns[k];
+      const ElasticOperator stiffness(mesh_of(piece), material);
+      std::vector<double> inverse_mass(stiffness.vector_size(), 0.0);
+      for (std::size_t d = 0; d < 2 * stiffness.node_count(); ++d) inverse_mass[d] = 1.0 / stiffness.mass()[d / 2];
+      largest[k] = largest_squared_frequency(stiffness, inverse_mass);
+    }
+  });
+  return 2.0 / std::sqrt(std::max(largest[0], largest[1]));
 }
 
 }  // namespace ddem::fem

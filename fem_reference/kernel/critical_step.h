@@ -40,6 +40,7 @@ inline constexpr unsigned columns_to_cut = 16;
 /// below, whatever is held. Sharp where an end is free, as those of the pieces are: of 144 strips (degrees 1 to 8, nu to
 /// 0.45, free and periodic, one end held or none) all but 8 are within 2e-4, bilinear elements with nu = 0.45 within
 /// 1.5e-3. With both ends held it may be a tenth below. A fifth of the work of the whole.
-double critical_time_step(const RectangleStrip& strip, const PlaneMaterial& material);
+/// The two sizes of pieces are work for two threads.
+double critical_time_step(const RectangleStrip& strip, const PlaneMaterial& material, Team& team);
 
 }  // namespace ddem::fem

@@ -1,6 +1,7 @@
 #include "fem_reference/kernel/team.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace ddem::fem {
 namespace {
@@ -35,8 +36,18 @@ void Team::run(const std::function<void(int)>& job) {
   job_ = &job;
   epoch_.fetch_add(1, std::memory_order_release);
   if (size_ > 1) epoch_.notify_all();
-  job(0);
+  take_part(0);
   meet();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void Team::take_part(int thread) {
+  try {
+    (*job_)(thread);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+  }
 }
 
 void Team::meet() {
@@ -55,7 +66,7 @@ void Team::work(int thread) {
   for (unsigned epoch = 0;; ++epoch) {
     wait_while(epoch_, epoch);
     if (over_) return;
-    (*job_)(thread);
+    take_part(thread);
     meet();
   }
 }

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 #include "fem_reference/kernel/elastic_operator.h"
 #include "fem_reference/kernel/gauss_lobatto.h"
@@ -221,6 +223,19 @@ TEST_P(Kernel, PeriodicNodesAreOneNode) {
     const std::size_t copy = node / rows * long_rows + rows + node % rows;
     EXPECT_NEAR(force[2 * node], long_force[2 * copy], 1e-11 * largest(force));
     EXPECT_NEAR(force[2 * node + 1], long_force[2 * copy + 1], 1e-11 * largest(force));
+  }
+}
+
+TEST(Team, ThrowsWhatAThreadThrowsAndGoesOn) {
+  Team team(3);
+  for (const int thrower : {0, 2}) {
+    const auto job = [&](int thread) {
+      if (thread == thrower) throw std::runtime_error("no");
+    };
+    EXPECT_THROW(team.run(job), std::runtime_error);
+    std::atomic<int> done = 0;
+    team.run([&](int) { ++done; });
+    EXPECT_EQ(done, 3);
   }
 }
 
