@@ -18,7 +18,7 @@ reports::Table waves() {
 reports::Table moduli() {
   return {.caption = "Moduli and motion of the discs. A: sum over bonds of k_n L² over the area, 2√3 k_n in the lattice; λ = k_t/k_n; φ: solid fraction; K_p, G_p, E_p, ν_p of the disc.",
           .columns = {{"reference"}, {"formula"}, {"source"}, {"used for"}},
-          .rows = {{"closed form, DEM", "2K = A/2, 2G = A(1 + λ)/4; lattice: ν = (1 − λ)/(3 + λ)", "Bathurst and Rothenburg 1988; Luding 2004", "lattice: static moduli (±1e-10) and velocities (±0.2 %); grey lines (kinematic estimate) for random packings"},
+          .rows = {{"closed form, DEM", "2K = A/2, 2G = A(1 + λ)/4; lattice: ν = (1 − λ)/(3 + λ)", "Bathurst and Rothenburg 1988; Luding 2004", "lattice: static moduli (±1e-10) and velocities (±0.2 %); random packings: the kinematic estimate"},
                    {"closed form, DDEM", "2K = (A/2)/(1 + A/(2φ 2K_p)) for all variants", "mean particle stress φσ_p = σ in the scheme of Rojek et al. 2018", "the same"},
                    {"", "N: 2G = [A(1 + λ)/4]/(1 + A/(4φ 2G_p))", "published correction", "the same"},
                    {"", "F: 2G = [A(1 + λ)/4]/(1 + A(1 + λ)/(4φ 2G_p))", "full correction", "the same; reach of implicit strains"},
