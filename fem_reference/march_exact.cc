@@ -76,13 +76,14 @@ Matrix march(const StripProblem& problem, const Response& response, std::size_t 
                                   static_cast<Eigen::Index>(receiver_values(problem.model)));
 }
 
-void filter(const Response& response, const Matrix& states, CaseResult& result) {
+// One thread's share of the samples, block by block: each block is a product of matrices of its own.
+void filter_share(const Response& response, const Matrix& states, CaseResult& result, const Team& team, int thread) {
   constexpr Eigen::Index block = 64;
   const auto samples = static_cast<Eigen::Index>(result.time.size());
-  result.signals.resize(result.time.size() * static_cast<std::size_t>(states.cols()));
   Eigen::Map<Matrix> signals(result.signals.data(), samples, states.cols());
   Matrix coefficients(block, states.rows());
-  for (Eigen::Index first = 0; first < samples; first += block) {
+  const auto [first_block, last_block] = team.part(static_cast<std::size_t>((samples + block - 1) / block), thread);
+  for (Eigen::Index first = block * static_cast<Eigen::Index>(first_block); first < block * static_cast<Eigen::Index>(last_block); first += block) {
     const Eigen::Index count = std::min(block, samples - first);
     // Later states do not reach back to these samples.
     const Eigen::Index reach = std::min<Eigen::Index>(
@@ -97,6 +98,11 @@ void filter(const Response& response, const Matrix& states, CaseResult& result) 
     const Eigen::Map<const Eigen::RowVectorXd> edge(response.edge.data(), states.cols());
     for (Eigen::Index row = 0; row < count; ++row) out.row(row) += response.motion(result.time[first + row]) * edge;
   }
+}
+
+void filter(const Response& response, const Matrix& states, CaseResult& result, Team& team) {
+  result.signals.resize(result.time.size() * static_cast<std::size_t>(states.cols()));
+  team.run([&](int thread) { filter_share(response, states, result, team, thread); });
 }
 
 }  // namespace
@@ -120,7 +126,7 @@ void march_exact(const StripProblem& problem, CaseResult& result) {
     result.time.push_back(static_cast<double>(sample) * result.sample_interval);
   }
   const Matrix states = march(problem, response, std::max<std::size_t>(2, states_for(end, result.time_step)), result);
-  filter(response, states, result);
+  filter(response, states, result, problem.stiffness.team());
   if (!std::all_of(result.signals.begin(), result.signals.end(), [](double v) { return std::isfinite(v); })) {
     result.status = fmt::format("unstable: step {}", result.steps);
     result.time.clear();

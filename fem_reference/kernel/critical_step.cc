@@ -1,6 +1,7 @@
 #include "fem_reference/kernel/critical_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -78,6 +79,23 @@ RitzValue largest_ritz_value(const std::vector<double>& alpha, const std::vector
   return {theta, beta.back() / std::sqrt(norm2)};
 }
 
+// Nodes column after column.
+ElementMesh mesh_of(const RectangleStrip& strip) {
+  const unsigned p = static_cast<unsigned>(strip.degree), rows = strip.ny * p + (strip.periodic ? 0 : 1);
+  ElementMesh mesh;
+  mesh.degree = strip.degree;
+  mesh.node_count = std::size_t{strip.nx * p + 1} * rows;
+  mesh.jacobians.assign(std::size_t{strip.nx} * strip.ny, {strip.hx, 0.0, 0.0, strip.hy});
+  for (unsigned x = 0; x < strip.nx; ++x) {
+    for (unsigned y = 0; y < strip.ny; ++y) {
+      for (unsigned eta = 0; eta <= p; ++eta) {
+        for (unsigned xi = 0; xi <= p; ++xi) mesh.nodes.push_back((x * p + xi) * rows + (y * p + eta) % rows);
+      }
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 double largest_squared_frequency(const ElasticOperator& stiffness, std::span<const double> inverse_mass,
@@ -111,6 +129,26 @@ double largest_squared_frequency(const ElasticOperator& stiffness, std::span<con
 double critical_time_step(const ElasticOperator& stiffness, std::span<const double> inverse_mass,
                           std::span<const std::uint64_t> node_keys) {
   return 2.0 / std::sqrt(largest_squared_frequency(stiffness, inverse_mass, node_keys));
+}
+
+double critical_time_step(const RectangleStrip& strip, const PlaneMaterial& material, Team& team) {
+  const unsigned pieces = strip.nx / (columns_to_cut / 2);
+  if (pieces == 0) throw std::invalid_argument("a strip of so few columns is not to be cut");
+  const std::array<unsigned, 2> columns{strip.nx / pieces, (strip.nx + pieces - 1) / pieces};
+  const std::size_t sizes = columns[0] == columns[1] ? 1 : 2;
+  std::array<double, 2> largest{};
+  team.run([&](int thread) {
+    const auto [first, last] = team.part(sizes, thread);
+    for (std::size_t k = first; k < last; ++k) {
+      RectangleStrip piece = strip;
+      piece.nx = columns[k];
+      const ElasticOperator stiffness(mesh_of(piece), material);
+      std::vector<double> inverse_mass(stiffness.vector_size(), 0.0);
+      for (std::size_t d = 0; d < 2 * stiffness.node_count(); ++d) inverse_mass[d] = 1.0 / stiffness.mass()[d / 2];
+      largest[k] = largest_squared_frequency(stiffness, inverse_mass);
+    }
+  });
+  return 2.0 / std::sqrt(std::max(largest[0], largest[1]));
 }
 
 }  // namespace ddem::fem

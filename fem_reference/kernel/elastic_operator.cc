@@ -56,13 +56,49 @@ std::array<double, coefficients_per_element> coefficients(const std::array<doubl
   return c;
 }
 
+// Edges along x and y, to the round-off of a mesh generator's coordinates.
+ElementShape shape_of(const ElementMesh& mesh) {
+  if (!mesh.affine()) return ElementShape::general;
+  const bool upright = std::all_of(mesh.jacobians.begin(), mesh.jacobians.end(), [](const auto& j) {
+    return std::max(std::abs(j[1]), std::abs(j[2])) <= 1e-12 * std::min(std::abs(j[0]), std::abs(j[3]));
+  });
+  return upright ? ElementShape::rectangle : ElementShape::parallelogram;
+}
+
+// A of n x n with A(n-1-q, n-1-k) = -A(q, k), which derivatives on symmetric points have. With h = n/2, m = n-1-k:
+// (A(q, k) + A(q, m))/2, then (A(q, k) - A(q, m))/2, each for q, k < h, rows q; if n is odd, A(h, k) for k < h, and
+// A(q, h) for q < h.
+std::vector<double> halves(const std::vector<double>& a, std::size_t n) {
+  const std::size_t h = n / 2;
+  std::vector<double> result;
+  for (const double sign : {1.0, -1.0}) {
+    for (std::size_t q = 0; q < h; ++q) {
+      for (std::size_t k = 0; k < h; ++k) result.push_back(0.5 * (a[q * n + k] + sign * a[q * n + n - 1 - k]));
+    }
+  }
+  if (n % 2 == 0) return result;
+  for (std::size_t k = 0; k < h; ++k) result.push_back(a[h * n + k]);
+  for (std::size_t q = 0; q < h; ++q) result.push_back(a[q * n + h]);
+  return result;
+}
+
+std::vector<double> weighted_transpose(const GaussLobatto& rule) {
+  const std::size_t n = rule.points.size();
+  std::vector<double> result(n * n);
+  for (std::size_t q = 0; q < n; ++q) {
+    for (std::size_t k = 0; k < n; ++k) result[k * n + q] = rule.weights[q] * rule.derivative[q * n + k];
+  }
+  return result;
+}
+
 }  // namespace
 
 ElasticOperator::ElasticOperator(const ElementMesh& mesh, const PlaneMaterial& material, InstructionSet set)
-    : kernel_(stiffness_kernel(mesh.degree, mesh.affine() ? ElementShape::parallelogram : ElementShape::general, set)) {
+    : kernel_(stiffness_kernel(mesh.degree, shape_of(mesh), set)) {
   check(mesh);
   GaussLobatto rule = gauss_lobatto(mesh.degree);
-  derivative_ = std::move(rule.derivative);
+  derivative_ = halves(rule.derivative, rule.points.size());
+  divergence_ = halves(weighted_transpose(rule), rule.points.size());
   weights_ = std::move(rule.weights);
   add_mass(mesh, material.density);
   pack(mesh, material);
@@ -140,7 +176,8 @@ void ElasticOperator::apply_share(std::span<const double> u, std::span<double> f
     const auto [first_block, last_block] = team_->part(blocks.size(), thread);
     for (std::size_t b = first_block; b < last_block; ++b) {
       const KernelData data{blocks[b].first_batch,      blocks[b].last_batch, batch_nodes_.data(),
-                            batch_coefficients_.data(), derivative_.data(),   weights_.data()};
+                            batch_coefficients_.data(), derivative_.data(),   divergence_.data(),
+                            weights_.data()};
       kernel_(data, u.data(), f.data());
     }
     team_->meet();
@@ -161,7 +198,14 @@ void ElasticOperator::use(Processes& processes) {
 double ElasticOperator::dot(std::span<const double> a, std::span<const double> b) const {
   double sum = 0.0;
   if (processes_ == nullptr) {
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    // A sum a lane: one sum would wait for every addition.
+    std::array<double, lanes> sums{};
+    const std::size_t whole = a.size() - a.size() % lanes;
+    for (std::size_t k = 0; k < whole; k += lanes) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += a[k + lane] * b[k + lane];
+    }
+    for (std::size_t k = whole; k < a.size(); ++k) sum += a[k] * b[k];
+    for (const double part : sums) sum += part;
     return sum;
   }
   const std::vector<double>& owned = processes_->owned();

@@ -61,7 +61,7 @@ class ElasticOperator {
   void colour_blocks();
   void pack(const ElementMesh& mesh, const PlaneMaterial& material);
 
-  std::vector<double> derivative_, weights_;
+  std::vector<double> derivative_, divergence_, weights_;
   std::vector<double> mass_;
   std::vector<std::uint32_t> batch_nodes_;
   std::vector<double> batch_coefficients_;

@@ -1,13 +1,15 @@
 #include "fem_reference/kernel/team.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace ddem::fem {
 namespace {
 
-// A meeting comes within microseconds, unless the machine is busy with something else.
+// A meeting comes within microseconds, unless the machine is busy with something else: then whoever is late may need this
+// very core. A thousand pauses are some ten microseconds.
 void wait_while(const std::atomic<unsigned>& value, unsigned old) {
-  for (int spin = 0; spin < 10'000; ++spin) {
+  for (int spin = 0; spin < 1000; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -34,8 +36,18 @@ void Team::run(const std::function<void(int)>& job) {
   job_ = &job;
   epoch_.fetch_add(1, std::memory_order_release);
   if (size_ > 1) epoch_.notify_all();
-  job(0);
+  take_part(0);
   meet();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void Team::take_part(int thread) {
+  try {
+    (*job_)(thread);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+  }
 }
 
 void Team::meet() {
@@ -54,7 +66,7 @@ void Team::work(int thread) {
   for (unsigned epoch = 0;; ++epoch) {
     wait_while(epoch_, epoch);
     if (over_) return;
-    (*job_)(thread);
+    take_part(thread);
     meet();
   }
 }

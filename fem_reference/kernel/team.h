@@ -2,7 +2,9 @@
 // A few threads that take every step together: started once, met several times a step.
 
 #include <atomic>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -19,7 +21,8 @@ class Team {
 
   int size() const { return size_; }
 
-  /// job(0) .. job(size - 1), one a thread; returns when all are done. The job must not throw.
+  /// job(0) .. job(size - 1), one a thread; returns when all are done. What one of them throws is thrown here; a job
+  /// that calls meet() must not throw.
   void run(const std::function<void(int)>& job);
 
   /// Inside a job: goes on when all threads have come here.
@@ -33,11 +36,14 @@ class Team {
 
  private:
   void work(int thread);
+  void take_part(int thread);
 
   int size_;
   const std::function<void(int)>* job_ = nullptr;
   std::atomic<unsigned> epoch_{0}, arrived_{0}, round_{0};
   bool over_ = false;
+  std::mutex mutex_;  // guards failure_
+  std::exception_ptr failure_;
   std::vector<std::thread> threads_;
 };
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/bench/bench_report.h"
 #include "harness/campaign/figures.h"
+#include "harness/campaign/formulas.h"
 #include "harness/campaign/scheme_figures.h"
 #include "harness/measure/elastic_constants.h"
 #include "harness/provenance/provenance.h"
@@ -142,6 +144,8 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
   report.sections = {overview(r), waves(r), paper(r)};
   if (r.range) report.sections.front().figures.push_back(range_figure(*r.range));
   if (r.schemes) report.sections.push_back(schemes(r));
+  if (!r.work_precision.empty()) report.sections.push_back(bench::precision_section(r.work_precision));
+  report.sections.push_back(formulas_section());
   report.provenance = provenance();
   report.provenance.emplace_back("simulations", std::to_string(r.waves.size()));
   report.provenance.emplace_back("finite-element runs", r.fem_failure.empty() ? std::to_string(r.fem.size()) : r.fem_failure);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem/statics/moduli.h"
+#include "harness/bench/precision.h"
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
 #include "harness/campaign/strip_campaign.h"
@@ -111,6 +112,7 @@ struct CampaignResults {
   std::vector<FemOutcome> fem;
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
+  std::vector<bench::PrecisionPoint> work_precision;  ///< of a small measurement, for the report's figure; no verdict
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;

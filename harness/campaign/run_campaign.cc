@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dem/spectra/spectra.h"
+#include "harness/bench/bench.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
@@ -318,6 +319,7 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
       if (!options.with_studies) return;
       results.schemes = study_schemes(s, [&] { progress(1); });
       results.range = study_range(s);
+      results.work_precision = bench::measure_briefly();
       progress(1);
     } else if (job < long_jobs + lattices.size()) {
       results.stability[job - long_jobs] = release_noise(s, lattices[job - long_jobs], options);

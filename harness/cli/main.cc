@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   add_moduli_command(app, action);
   add_stability_command(app, action);
   add_pack_command(app, action);
+  add_bench_command(app, action);
   add_commands_to_come(app, action);
   try {
     app.parse(argc, argv);

@@ -1,5 +1,6 @@
 // Help, versions, wrong arguments, and outputs that cannot be written.
 
+#include "harness/io/json.h"
 #include "tests/harness/cli/program.h"
 
 namespace ddem::harness::test {
@@ -38,7 +39,8 @@ TEST_F(Cli, WrongArguments) {
                                                     {"run", path("scene.toml"), "-o"},
                                                     {"pack", path("scene.toml")},
                                                     {"validate", "-j", "none"},
-                                                    {"validate", "-j", "-1"}}) {
+                                                    {"validate", "-j", "-1"},
+                                                    {"bench", "--only", "everything"}}) {
     const auto run = ddem(arguments);
     EXPECT_EQ(run.exit_code, 2) << testing::PrintToString(arguments);
     EXPECT_EQ(run.standard_output, "") << testing::PrintToString(arguments);
@@ -48,11 +50,24 @@ TEST_F(Cli, WrongArguments) {
 
 TEST_F(Cli, CommandsToComeSaySo) {
   write("scene.toml", small_scene());
-  for (const char* command : {"calibrate", "bench", "report", "compare"}) {
+  for (const char* command : {"calibrate", "report", "compare"}) {
     const auto run = ddem({command, path("scene.toml"), "--json"});
     EXPECT_EQ(run.exit_code, 2) << command;
     EXPECT_THAT(run.standard_error, HasSubstr(std::string("ddem ") + command + ": not built yet"));
   }
+}
+
+// What it measures is tested in tests/harness/bench; here: one part alone, as JSON and as files.
+TEST_F(Cli, BenchWritesWhatItPrints) {
+  const auto run = ddem({"bench", "--only", "peers", "--json", "-o", path("measured")});
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  const Json printed = Json::parse(run.standard_output), written = Json::parse(read("measured/bench.json"));
+  EXPECT_EQ(printed, written);
+  for (const char* key : {"kernels", "work_precision", "peers", "triad_gb_per_s", "provenance"}) EXPECT_TRUE(printed.contains(key)) << key;
+  EXPECT_TRUE(printed["kernels"].empty() && printed["work_precision"].empty());
+  EXPECT_TRUE(!printed["peers"].empty() || printed.contains("peers_reason"));
+  EXPECT_THAT(read("measured/bench.html"), HasSubstr("Other programs"));
+  EXPECT_EQ(run.standard_error, "");  // no progress where there is no terminal
 }
 
 TEST_F(Cli, AnOutputFolderThatIsMissing) {

@@ -1,0 +1,41 @@
+#pragma once
+// What a bond costs in a step, law by law. All of a size take turns, round after round, and the median counts: a slow
+// spell of the machine then hits them alike, and ratios between laws hold even on a busy one. (Google Benchmark runs one
+// after the other, and would set up 1e5 discs anew for each repetition.) Setting up is not timed.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace ddem::harness::bench {
+
+struct KernelTime {
+  std::string law;
+  bool per_bond_stiffness = false;
+  std::size_t discs = 0, bonds = 0;
+  int threads = 1;
+  double nanoseconds_per_bond_step = 0.0;  ///< median
+  double best = 0.0;                       ///< the fastest round, ns per bond and step
+  double over_dem = 0.0;                   ///< median over the rounds: times DEM with shear and uniform stiffness
+  int rounds = 0;
+};
+
+struct KernelPlan {
+  std::size_t discs = 0;
+  long steps = 0;  ///< a round
+  int rounds = 0;
+  bool deformable = true;           ///< lagged and implicit strains
+  bool implicit_per_bond = true;    ///< setting up implicit strains of many discs takes seconds
+  std::vector<int> threads;
+};
+
+/// 682, 1e5 and 1e6 discs (there plain DEM alone); two threads where the machine has them.
+std::vector<KernelPlan> kernel_plans();
+
+/// `progress` is called after each plan.
+std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const std::function<void()>& progress);
+
+/// Of an odd or even number of values; NaN of none.
+double median(std::vector<double> values);
+
+}  // namespace ddem::harness::bench

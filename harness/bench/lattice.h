@@ -1,0 +1,38 @@
+#pragma once
+// What is timed: a lattice of equal discs, and the contact laws and schemes by name.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "dem/simulation/simulation.h"
+
+namespace ddem::harness::bench {
+
+inline constexpr double kRadius = 0.132e-3, kDensity = 2000.0, kNormalStiffness = 1e10, kShearRatio = 0.25;
+inline constexpr double kSoftness = 0.25, kDiscPoisson = 0.3;  ///< k_n/E_p, nu_p
+
+struct Law {
+  std::string name;
+  ContactParameters contact;
+  DeformationParameters deformation;
+};
+
+/// Plain DEM without and with shear stiffness, lagged and implicit strains (F). `per_bond`: k_n read from an array of
+/// one value a bond, all of them the same here, so that the motion is that of the uniform one.
+Law rigid(bool shear, bool per_bond = false);
+Law deformable(Scheme scheme, bool per_bond = false);
+
+/// Touching discs, close-packed rows along x, so many a row; `periodic` in both directions.
+ddem::Assembly lattice(int columns, int rows, bool periodic = false, double radius = kRadius);
+
+/// Columns and rows of about so many discs, five times as long as wide.
+std::array<int, 2> lattice_size(std::size_t discs);
+
+/// A step of this fraction of the critical one without shear stiffness, 2/sqrt(6) sqrt(m/k_n) (theory section 3).
+double lattice_step(double fraction);
+
+/// A smooth displacement everywhere: arithmetic on zeros or subnormal numbers takes other times.
+ddem::InitialState smooth_state(const ddem::Assembly& assembly);
+
+}  // namespace ddem::harness::bench

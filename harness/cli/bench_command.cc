@@ -1,0 +1,108 @@
+// ddem bench
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "harness/bench/bench.h"
+#include "harness/bench/bench_report.h"
+#include "harness/campaign/write_results.h"
+#include "harness/cli/commands.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/errors.h"
+#include "harness/io/progress.h"
+
+namespace ddem::harness {
+namespace {
+
+struct Options {
+  std::string only, folder;
+  bool json = false;
+};
+
+void print_kernels(const std::vector<bench::KernelTime>& kernels) {
+  if (kernels.empty()) return;
+  fmt::print("\n{:<14} {:<9} {:>8} {:>8} {:>12} {:>8} {:>9}\n", "law", "stiffness", "discs", "threads", "ns/bond/step", "best", "over DEM");
+  for (const bench::KernelTime& k : kernels) {
+    fmt::print("{:<14} {:<9} {:>8} {:>8} {:>12.2f} {:>8.2f} {:>9.2f}\n", k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs,
+               k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem);
+  }
+}
+
+void print_fem_kernels(const std::vector<bench::FemKernelTime>& kernels) {
+  for (const bench::FemKernelTime& k : kernels) {
+    fmt::print("\nfinite elements, degree {} on {} x {}, {} dofs, threads {}: {:.0f} million dof-steps a second ({:.2f} times one thread, {} bits)\n",
+               k.mesh.degree, k.mesh.elements[0], k.mesh.elements[1], k.dofs, k.threads, 1e-6 * k.dof_steps_per_second, k.over_one_thread,
+               k.same_bits ? "the same" : "OTHER");
+  }
+}
+
+void print_precision(const std::vector<bench::PrecisionPoint>& points) {
+  if (points.empty()) return;
+  fmt::print("\n{:<6} {:<10} {:<9} {:>13} {:>6} {:>10} {:>10} {:>13}\n", "solver", "scheme", "mesh", "discs or dofs", "step", "seconds", "error", "to continuum");
+  for (const bench::PrecisionPoint& p : points) {
+    fmt::print("{:<6} {:<10} {:<9} {:>13} {:>6.3g} {:>10.3g} ", p.solver, p.scheme, p.mesh, p.discs_or_dofs, p.step_fraction, p.seconds);
+    if (p.status == "ok") {
+      fmt::print("{:>10.2g} {:>13.2g}\n", p.error, p.error_to_continuum);
+    } else {
+      fmt::print("{}\n", p.status);
+    }
+  }
+}
+
+void print_peers(const bench::Peers& peers) {
+  for (const bench::PeerTime& p : peers.times) {
+    fmt::print("\n{} ({}), {}, {} discs: {:.2f} ns per bond and step; ddem {:.2f}: {:.2f} times as fast (displacements differ by {:.1g})\n",
+               p.program, p.version, p.law, p.discs, p.nanoseconds_per_bond_step, p.ddem_nanoseconds_per_bond_step, p.ratio, p.difference);
+  }
+  if (!peers.reason.empty()) fmt::print("\npeers: {}\n", peers.reason);
+}
+
+void write_files(const std::string& folder, const bench::BenchResults& results) {
+  write_json(std::filesystem::path(folder) / "bench.json", bench::bench_json(results));
+  write_file(std::filesystem::path(folder) / "bench.html", reports::render_html(bench::bench_report(results)));
+}
+
+int run(const Options& o) {
+  bench::BenchPlan plan;
+  if (!o.only.empty()) {
+    plan.kernels = o.only == "kernels";
+    plan.work_precision = o.only == "work-precision";
+    plan.peers = o.only == "peers";
+  }
+  if (!o.folder.empty()) prepare_folder(o.folder);
+  bench::BenchResults results;
+  {
+    Progress progress(bench::bench_work(plan), "measuring");
+    results = bench::run_bench(plan, [&] { progress.advance(); });
+  }
+  if (!o.folder.empty()) write_files(o.folder, results);
+  if (o.json) {
+    fmt::print("{}", to_text(bench::bench_json(results)));
+    return static_cast<int>(ExitCode::done);
+  }
+  fmt::print("triad: {:.1f} GB/s with one thread, {:.1f} at most ({} threads)\n", results.triad_one_thread, results.triad, results.triad_threads);
+  print_kernels(results.kernels);
+  print_fem_kernels(results.fem_kernels);
+  print_precision(results.work_precision);
+  if (!results.fem_failure.empty()) fmt::print("\nno finite elements: {}\n", results.fem_failure);
+  if (plan.peers) print_peers(results.peers);
+  if (!o.folder.empty()) fmt::print("\nreport: {}/bench.html\n", o.folder);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
+  command->footer("kernels         every contact law and scheme, 682, 1e5 and 1e6 discs, and the finite elements; one and two threads\n"
+                  "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
+                  "peers           LAMMPS (lmp on the PATH; Debian: lammps) on the same discs, where it is installed\n"
+                  "Without --only: all of it, in two minutes or less. Times are those of a machine that does nothing else.");
+  command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "peers"}));
+  command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
+  command->add_flag("--json", o->json, "print the result as JSON");
+  command->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,59 @@
+// Timing: laws take turns, and the numbers are what they say.
+
+#include "harness/bench/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "harness/bench/triad.h"
+
+namespace ddem::harness::bench {
+namespace {
+
+TEST(Median, OfOddAndEvenNumbersOfValues) {
+  EXPECT_EQ(median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(median({4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_EQ(median({7.0}), 7.0);
+  EXPECT_TRUE(std::isnan(median({})));
+}
+
+TEST(Kernels, EveryLawIsTimedOnceForEachNumberOfThreads) {
+  int heard = 0;
+  const auto times = time_kernels({{240, 30, 3, true, true, {1, 2}}}, [&] { ++heard; });
+  EXPECT_EQ(heard, 1);
+  std::set<std::tuple<std::string, bool, int>> seen;
+  for (const KernelTime& k : times) {
+    EXPECT_TRUE(seen.insert({k.law, k.per_bond_stiffness, k.threads}).second) << k.law;
+    EXPECT_GT(k.best, 0.0);
+    EXPECT_LE(k.best, k.nanoseconds_per_bond_step);
+    EXPECT_LT(k.nanoseconds_per_bond_step, 1e6);  // a step of 700 bonds below a second
+    EXPECT_GT(k.over_dem, 0.0);
+    EXPECT_NEAR(static_cast<double>(k.discs), 240.0, 20.0);
+    EXPECT_GT(k.bonds, 2 * k.discs);
+    if (k.law == "DEM" && !k.per_bond_stiffness) {
+      EXPECT_EQ(k.over_dem, 1.0);
+    }
+  }
+  EXPECT_EQ(seen.size(), 2u * 2u * 4u);
+}
+
+TEST(Kernels, RigidDiscsAlone) {
+  const auto times = time_kernels({{240, 10, 1, false, false, {1}}}, [] {});
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[0].law, "DEM, k_t = 0");
+  EXPECT_EQ(times[1].law, "DEM");
+}
+
+TEST(Triad, IsBetweenADiskAndACache) {
+  for (const int threads : {1, 3}) {
+    const double rate = triad_gb_per_s(threads);
+    EXPECT_GT(rate, 0.1);
+    EXPECT_LT(rate, 1e4);
+  }
+}
+
+}  // namespace
+}  // namespace ddem::harness::bench
