@@ -8,6 +8,7 @@
 #include "dem/statics/moduli.h"
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
+#include "harness/campaign/stability_study.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/measure/elastic_constants.h"
 #include "harness/run/scene_moduli.h"
@@ -111,6 +112,7 @@ struct CampaignResults {
   std::vector<FemOutcome> fem;
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
+  std::vector<StabilityMap> stability_maps;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;
