@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/campaign/dispersion_figures.h"
 #include "harness/campaign/figures.h"
 #include "harness/campaign/scheme_figures.h"
 #include "harness/campaign/stability_figures.h"
@@ -151,6 +152,7 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
   report.verdicts = verdicts;
   report.sections = {overview(r), waves(r), paper(r)};
   if (r.range) report.sections.front().figures.push_back(range_figure(*r.range));
+  if (r.dispersion) report.sections[1].figures.push_back(dispersion_figure(*r.dispersion));
   if (r.schemes) report.sections.push_back(schemes(r));
   if (!r.stability_maps.empty()) report.sections.push_back(stability(r));
   report.provenance = provenance();

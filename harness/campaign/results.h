@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem/statics/moduli.h"
+#include "harness/campaign/dispersion_study.h"
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
 #include "harness/campaign/stability_study.h"
@@ -113,6 +114,7 @@ struct CampaignResults {
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
   std::vector<StabilityMap> stability_maps;
+  std::optional<DispersionStudy> dispersion;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;

@@ -278,7 +278,7 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 }  // namespace
 
 std::size_t campaign_work(const StripCampaign& s, const CampaignOptions& options) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 1 + stability_grid(s.full_stability).maps.size() : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 2 + stability_grid(s.full_stability).maps.size() : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -324,6 +324,8 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
       if (!options.with_studies) return;
       results.schemes = study_schemes(s, [&] { progress(1); });
       results.range = study_range(s);
+      progress(1);
+      results.dispersion = study_dispersion(s, options.with_fem);
       progress(1);
     } else if (job < long_jobs + lattices.size()) {
       results.stability[job - long_jobs] = release_noise(s, lattices[job - long_jobs], options);

@@ -8,6 +8,8 @@
 namespace ddem::harness {
 namespace {
 
+constexpr double kSignificant = 1e-4;
+
 Eigen::MatrixXd samples_of(std::span<const std::vector<double>> signals, std::size_t begin, std::size_t end) {
   Eigen::MatrixXd y(static_cast<Eigen::Index>(signals.size()), static_cast<Eigen::Index>(end - begin));
   for (std::size_t s = 0; s < signals.size(); ++s) {
@@ -43,6 +45,24 @@ Prediction of_order(const Eigen::MatrixXd& y, Eigen::Index order) {
   return p;
 }
 
+/// Takes out the factors that have no part in the signals: a recurrence of too high an order has roots anywhere.
+void keep_significant(const Eigen::MatrixXd& y, Prediction& p) {
+  const Eigen::Index samples = y.cols(), order = static_cast<Eigen::Index>(p.factors.size());
+  // Each motion in units of its largest value in the window, so that the columns are of one size.
+  Eigen::MatrixXcd motions(samples, order);
+  for (Eigen::Index j = 0; j < order; ++j) {
+    const std::complex<double> z = p.factors[static_cast<std::size_t>(j)];
+    const double from = std::abs(z) > 1.0 ? static_cast<double>(samples - 1) : 0.0;
+    for (Eigen::Index n = 0; n < samples; ++n) motions(n, j) = std::exp((static_cast<double>(n) - from) * std::log(z));
+  }
+  const Eigen::VectorXd parts = motions.colPivHouseholderQr().solve(y.transpose().cast<std::complex<double>>().eval()).rowwise().norm();
+  std::vector<std::complex<double>> kept;
+  for (Eigen::Index j = 0; j < order; ++j) {
+    if (parts[j] >= kSignificant * parts.maxCoeff()) kept.push_back(p.factors[static_cast<std::size_t>(j)]);
+  }
+  p.factors = std::move(kept);
+}
+
 }  // namespace
 
 double Prediction::largest() const {
@@ -62,6 +82,7 @@ Prediction predict_linearly(std::span<const std::vector<double>> signals, std::s
     if (best.factors.empty() || p.residual < best.residual) best = std::move(p);
     if (best.residual < enough) break;
   }
+  if (!best.factors.empty()) keep_significant(y, best);
   return best;
 }
 

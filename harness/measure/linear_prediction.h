@@ -10,7 +10,8 @@
 namespace ddem::harness {
 
 struct Prediction {
-  std::vector<std::complex<double>> factors;  ///< z_j a sample, none where the signals are zero or too short
+  /// z_j a sample, of motions that hold 1e-4 of the largest one or more; none where the signals are zero or too short.
+  std::vector<std::complex<double>> factors;
   double residual = 0.0;                      ///< root mean square of what is not predicted, over that of the signals
 
   /// Largest |z_j|; 0 without factors.
