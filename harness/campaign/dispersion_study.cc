@@ -30,7 +30,7 @@ constexpr int kSampleEvery = 4;
 // Lines of waves with fewer lengths over the strip merge with their reflections.
 constexpr double kFewestWaves = 7.5;
 constexpr double kZoneBoundary = std::numbers::pi / kSpacing;
-constexpr double kNear = 0.1;  // S0 is looked for so near to its frequency: other modes of the strip are in the spectrum too
+constexpr double kNear = 0.04;  // a crest is looked for so near to its branch: rotations and higher modes are in the spectra too
 
 bool is_judged(double k) { return k >= kFewestWaves * 2.0 * std::numbers::pi / (kColumns * kSpacing) && k <= 0.501 * kZoneBoundary; }
 
@@ -52,16 +52,15 @@ std::vector<System> systems_of(const StripCampaign& s) {
 
 DispersionBranch branch_of(const std::string& wave, const FkSpectrum& spectrum, const std::function<double(double)>& exact) {
   DispersionBranch branch{wave, {}, {}, {}, 0};
-  for (const double k : spectrum.wavenumber) {
+  for (std::size_t row = 0; row < spectrum.wavenumber.size(); ++row) {
+    const double k = spectrum.wavenumber[row];
     branch.wavenumber.push_back(k);
     branch.exact.push_back(k > 0.0 ? exact(k) : 0.0);
-    branch.expected += is_judged(k) ? 1 : 0;
+    if (!is_judged(k)) continue;
+    ++branch.expected;
+    if (const auto crest = crest_near(spectrum, row, branch.exact.back(), kNear)) branch.ridge.push_back(*crest);
   }
   return branch;
-}
-
-void keep_judged(DispersionBranch& branch, const std::vector<RidgePoint>& ridge) {
-  std::copy_if(ridge.begin(), ridge.end(), std::back_inserter(branch.ridge), [](const RidgePoint& p) { return is_judged(p.wavenumber); });
 }
 
 FkSpectrum together(FkSpectrum a, const FkSpectrum& b) {
@@ -97,34 +96,35 @@ DispersionPanel discs_panel(const StripCampaign& s, const System& system, const 
     const auto branches = bloch.branches({k, 0.0});
     return std::find_if(branches.begin(), branches.end(), [](const Branch& b) { return std::norm(b.motion[0]) > 0.5; })->frequency.real();
   }));
-  keep_judged(panel.branches.back(), main_ridge(along));
   panel.branches.push_back(branch_of("shear", across, [&](double k) { return bloch.frequencies({k, 0.0}).front().real(); }));
-  keep_judged(panel.branches.back(), main_ridge(across));
   return panel;
 }
 
-/// The continuum of the discs with full correction, in a strip as long and wide, released by a pulse two columns wide.
+/// The continuum of the discs with full correction, in a strip as long and wide as theirs. Free ends reflect plane waves as
+/// they are; S0 waves keep their shape at ends that slide, and are released by a pulse beside them.
 FemCase continuum(const ContinuumMaterial& material, Wave wave, bool periodic, double sampled) {
   FemCase c;
   c.id = std::string(periodic ? "periodic" : "free") + (wave == Wave::shear ? "-shear" : "-longitudinal");
-  c.length = (kColumns - 1) * kSpacing;
+  c.length = kColumns * kSpacing;
   c.width = kRows * 2.0 * kRadius;
   c.elements = {64, 2};
   c.degree = 6;
   c.material = material;
   c.periodic = periodic;
-  c.left = c.right = Edge::free;
+  c.left = c.right = periodic ? Edge::free : Edge::fixed_x;
   InitialPulse pulse;
   pulse.wave = wave;
-  pulse.shape = PulseShape::cosine;
-  pulse.width = 2.0 * kSpacing;
+  pulse.shape = periodic ? PulseShape::cosine : PulseShape::gaussian;
+  pulse.width = (periodic ? 2.0 : 0.5) * kSpacing;
+  // A wave sin(k x) with a node at the pulse would be missing: the first lies at the zone boundary over 1.5.
+  pulse.center = periodic ? 0.0 : 1.5 * kSpacing;
   pulse.amplitude = kAmplitude;
   c.load = pulse;
   c.step = StepSeconds{sampled};
   c.end = static_cast<double>(kSteps / kSampleEvery) * sampled;
   // S0 lives near the edges where it is short.
   const double y = periodic ? 0.5 * c.width : c.width;
-  for (int column = 0; column < kColumns; ++column) c.points.push_back({std::min(column * kSpacing, c.length), y});
+  for (int column = 0; column < kColumns; ++column) c.points.push_back({(column + 0.5) * kSpacing, y});
   return c;
 }
 
@@ -141,18 +141,13 @@ void add_continuum(DispersionStudy& study, const ContinuumMaterial& material, do
     const FkSpectrum along = fk_spectrum(results[0].point_ux, kSpacing, dt), across = fk_spectrum(results[1].point_uy, kSpacing, dt);
     periodic.spectrum = together(along, across);
     periodic.branches.push_back(branch_of("P", along, [&](double k) { return k * material.wave_speed(Wave::longitudinal, true); }));
-    keep_judged(periodic.branches.back(), main_ridge(along));
     periodic.branches.push_back(branch_of("shear", across, [&](double k) { return k * material.wave_speed(Wave::shear, true); }));
-    keep_judged(periodic.branches.back(), main_ridge(across));
 
-    open.spectrum = fk_spectrum(results[2].point_ux, kSpacing, dt);
+    // Along the edge S0's displacement u_x changes sign with the wavenumber, u_y does not.
+    const FkSpectrum normal = fk_spectrum(results[2].point_uy, kSpacing, dt);
+    open.spectrum = together(fk_spectrum(results[2].point_ux, kSpacing, dt), normal);
     const double bar = material.wave_speed(Wave::longitudinal, false);
-    DispersionBranch s0 = branch_of("S0", open.spectrum, [&](double k) { return k * bar * references::lamb_s0(k * cases[2].width, material.poisson_ratio).phase; });
-    for (std::size_t row = 0; row < s0.wavenumber.size(); ++row) {
-      if (!is_judged(s0.wavenumber[row])) continue;
-      if (const auto crest = crest_near(open.spectrum, row, s0.exact[row], kNear)) s0.ridge.push_back(*crest);
-    }
-    open.branches.push_back(std::move(s0));
+    open.branches.push_back(branch_of("S0", normal, [&](double k) { return k * bar * references::lamb_s0(k * cases[2].width, material.poisson_ratio).phase; }));
   } catch (const std::exception& e) {
     periodic.failure = open.failure = e.what();
   }

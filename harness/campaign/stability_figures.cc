@@ -46,7 +46,7 @@ reports::Figure figure_of(const std::vector<StabilityMap>& maps, StripPacking pa
       .caption = lattice ? "Colour: measured growth of a motion in a step, white where there is none, blue where it decays. Steps are given over the critical step of "
                            "rigid discs. Each run was released from the motion that theory says grows fastest, or, where nothing grows, decays slowest (but for motions that strain no disc). Lagged strains damp where they "
                            "are stable, and fail where discs are soft or steps large; the published correction (N) fails everywhere once kₜ/kₙ exceeds 1/3, "
-                           "slowly. Implicit strains keep the energy at any softness, and soft discs even admit larger steps."
+                           "slowly. Implicit strains keep the energy at any softness, up to the critical step of rigid discs."
                          : "As above. Here the published correction (N) has no energy: with implicit strains motions grow at any step (flutter), which no lattice "
                            "shows; with lagged strains the damping may hide it. It has no sharp limit to be drawn."};
   for (const StabilityMap& map : maps) {
