@@ -290,19 +290,22 @@ StabilityGrid stability_grid(bool full) {
   g.random_step_fraction = full ? g.step_fraction : std::vector<double>{0.02, 0.3, 0.6, 0.9, 1.1};
   g.random_softness = decades(0.01, 10.0, full ? 4 : 2);
   if (full) g.random_discs = 40;
-  const std::vector<double> ratios = full ? std::vector<double>{0.0, 0.1, 0.3, 0.32, 0.35, 0.5, 1.0} : std::vector<double>{0.3};
-  const std::vector<double> poissons = full ? std::vector<double>{0.0, 0.3, 0.45} : std::vector<double>{0.3};
-  for (const StripPacking packing : {StripPacking::hexagonal, StripPacking::random}) {
+  const auto add = [&](StripPacking packing, const std::vector<double>& ratios, const std::vector<double>& poissons) {
     for (const double ratio : ratios) {
       g.maps.push_back({packing, Scheme::none, Correction::full, ratio, 0.0});
       for (const double nu : poissons) {
         for (const Scheme scheme : {Scheme::lagged, Scheme::implicit}) {
-          for (const Correction c : {Correction::normal, Correction::full, Correction::normal_only_stress}) {
-            g.maps.push_back({packing, scheme, c, ratio, nu});
-          }
+          for (const Correction c : {Correction::normal, Correction::full, Correction::normal_only_stress}) g.maps.push_back({packing, scheme, c, ratio, nu});
         }
       }
     }
+  };
+  if (full) {
+    add(StripPacking::hexagonal, {0.0, 0.1, 0.3, 0.32, 0.35, 0.5, 1.0}, {0.0, 0.3, 0.45});
+    add(StripPacking::random, {0.0, 0.3, 1.0}, {0.3, 0.45});
+  } else {
+    add(StripPacking::hexagonal, {0.3}, {0.3});
+    add(StripPacking::random, {0.3}, {0.3});
   }
   if (!full) {  // without shear stiffness, where all corrections are one; the published correction beyond its limit
     g.maps.push_back({StripPacking::hexagonal, Scheme::lagged, Correction::full, 0.0, 0.3});
