@@ -44,7 +44,7 @@ reports::Figure figure_of(const std::vector<StabilityMap>& maps, StripPacking pa
       .id = lattice ? "stability-lattice" : "stability-random",
       .title = lattice ? "Where the schemes are stable: the lattice" : "Where the schemes are stable: a small random packing",
       .caption = lattice ? "Colour: measured growth of a motion in a step, white where there is none, blue where it decays. Steps are given over the critical step of "
-                           "rigid discs. Each run was released from the motion that theory says grows fastest, or, where nothing grows, decays slowest (but for motions that strain no disc). Lagged strains damp where they "
+                           "rigid discs. Each run was released from the motion that theory says grows fastest, or, where nothing grows, decays slowest (but for motions that strain no disc). Grey: beyond the limit strains grow that are alike in all discs, and move none. Lagged strains damp where they "
                            "are stable, and fail where discs are soft or steps large; the published correction (N) fails everywhere once kₜ/kₙ exceeds 1/3, "
                            "slowly. Implicit strains keep the energy at any softness, up to the critical step of rigid discs."
                          : "As above. Here the published correction (N) has no energy: with implicit strains motions grow at any step (flutter), which no lattice "
@@ -64,14 +64,15 @@ std::vector<reports::Figure> stability_figures(const std::vector<StabilityMap>& 
 reports::Table stability_table(const std::vector<StabilityMap>& maps) {
   reports::Table t;
   t.caption = "Growth a step, predicted and measured, and whether noise did what it should.";
-  t.columns = {{"assembly and scheme"}, {"points"}, {"unstable"}, {"largest growth"}, {"largest disagreement", "%", 2}, {"wrong sides"}};
+  t.columns = {{"assembly and scheme"}, {"points"}, {"unstable"}, {"not measured"}, {"largest growth"}, {"largest disagreement", "%", 2}, {"wrong sides"}};
   for (const StabilityMap& m : maps) {
-    double unstable = 0.0, growth = -1.0;
+    double unstable = 0.0, growth = -1.0, unseen = 0.0;
     for (const StabilityPoint& p : m.points) {
       unstable += p.predicted > kGrowthFloor ? 1.0 : 0.0;
+      unseen += p.unseen ? 1.0 : 0.0;
       growth = std::max(growth, p.predicted);
     }
-    t.rows.push_back({name(m.key), static_cast<double>(m.points.size()), unstable, growth, 100.0 * m.worst_disagreement(), static_cast<double>(m.wrong_sides())});
+    t.rows.push_back({name(m.key), static_cast<double>(m.points.size()), unstable, unseen, growth, 100.0 * m.worst_disagreement(), static_cast<double>(m.wrong_sides())});
   }
   return t;
 }

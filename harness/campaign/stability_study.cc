@@ -28,6 +28,9 @@ constexpr long kFewestSteps = 15, kMostSteps = 10000, kNoiseSteps = 400;
 constexpr long kNeutralSteps = 300;    // of schemes without memory, which stay in the motion that they are released from
 constexpr double kWantedGrowth = 35.0, kWantedDecay = 3.0;  // of ln of the amplitude in a run
 constexpr double kNoGrowth = 1e-9;
+// Strains that move no disc grow from round-off, 1e-16 of the start and less, and are seen before a motion of growth g has
+// grown by e^35 if they grow faster than 2 g.
+constexpr double kDrowned = 1.5;
 constexpr double kEnough = 1e-8;      // residual of the linear prediction, over the signals
 constexpr std::size_t kWindow = 60;   // samples
 // Noise holds a share of 1/sqrt(2 discs) of the worst motion, 0.1, and diverges at 1e3: 1e4 = e^9.2.
@@ -40,6 +43,7 @@ const char* symbol(Correction c) { return c == Correction::normal ? "N" : c == C
 struct Start {
   Complex factor;
   std::vector<Complex> ux, uy, theta;  ///< a disc each; theta in rad times the mean radius
+  double motionless = 0.0;             ///< ln of the largest factor beyond 1 of strains that move no disc
 };
 
 /// The assembly of a map with its predictions.
@@ -94,13 +98,15 @@ Start Subject::worst_wave(const DeformationParameters& d, double dt) const {
   const HexagonalBloch waves = bloch(d);
   WaveMode worst{0.0, {}};
   WaveVector at;
+  double motionless = 0.0;
   for (const WaveVector& k : waves_of_the_cell()) {
     for (const WaveMode& m : waves.modes(k, dt)) {
+      if (!(m.motion.norm() > 0.0)) motionless = std::max(motionless, std::log(std::abs(m.factor)));
       if (!(m.motion.norm() > 0.0) || std::abs(m.factor - 1.0) < kTranslationFactor) continue;
       if (worst.motion.size() == 0 || leads(m.factor, worst.factor)) worst = m, at = k;
     }
   }
-  Start start{worst.factor, {}, {}, {}};
+  Start start{worst.factor, {}, {}, {}, motionless};
   for (std::size_t p = 0; p < a_.size(); ++p) {
     const Complex phase = std::polar(1.0, at.x * a_.packing.x[p] + at.y * a_.packing.y[p]);
     start.ux.push_back(phase * worst.motion[0]);
@@ -112,7 +118,7 @@ Start Subject::worst_wave(const DeformationParameters& d, double dt) const {
 
 Start Subject::worst_mode(const DeformationParameters& d, double dt) const {
   const StepMode mode = leading_mode(a_, contact_, d, dt);
-  Start start{mode.factor, {}, {}, {}};
+  Start start{mode.factor, {}, {}, {}, 0.0};
   const int dofs = contact_.has_rotation() ? 3 : 2;
   for (Eigen::Index p = 0; p < static_cast<Eigen::Index>(a_.size()); ++p) {
     start.ux.push_back(mode.motion[dofs * p]);
@@ -127,7 +133,10 @@ double Subject::largest_step(const DeformationParameters& d) const {
   if (!lattice_) {
     return ddem::critical_step(a_, contact_, d, {}).step.value_or(0.0);
   }
-  const auto stable = [&](double dt) { return std::abs(worst_wave(d, dt).factor) < 1.0 + kNoGrowth; };
+  const auto stable = [&](double dt) {
+    const Start worst = worst_wave(d, dt);
+    return std::abs(worst.factor) < 1.0 + kNoGrowth && worst.motionless < kNoGrowth;
+  };
   double low = 0.005 * critical_, high = 1.5 * critical_;
   if (!stable(low)) return 0.0;
   if (stable(high)) return high;
@@ -179,7 +188,8 @@ std::optional<double> release(const Subject& subject, const Start& start, Simula
   in.steps = std::clamp(static_cast<long>(std::min(wanted / std::max(std::abs(growth), 1e-12), 1e9)), kFewestSteps, lagged ? kMostSteps : kNeutralSteps);
   // A run counts as diverged at 1e3 times its start, too soon to be rid of the motions that grow a little slower. So all
   // discs are displaced alike besides, which moves no overlap, by as much as allows the growth; its round-off grows less.
-  const double offset = kAmplitude * std::expm1(std::max(0.0, growth * static_cast<double>(in.steps)));
+  // (The shortest runs end before anyone looks.)
+  const double offset = in.steps == kFewestSteps ? 0.0 : kAmplitude * std::expm1(std::max(0.0, growth * static_cast<double>(in.steps)));
   for (double& u : in.initial.ux) u += offset;
   in.sample_every = static_cast<int>(std::max<long>(1, in.steps / 2 / static_cast<long>(kWindow)));
   for (int p = 0; p < static_cast<int>(a.size()); ++p) in.receivers.push_back({{p}});
@@ -230,7 +240,12 @@ DeformationParameters strains(const StripCampaign& s, const StabilityKey& key, d
 StabilityPoint measure(const Subject& subject, const DeformationParameters& d, double softness, double fraction, const StabilityGrid& grid) {
   const double dt = fraction * subject.critical_step();
   const Start start = subject.worst(d, dt);
-  StabilityPoint point{softness, fraction, std::abs(start.factor) - 1.0, {}, false, {}};
+  StabilityPoint point{softness, fraction, std::abs(start.factor) - 1.0, {}, false, {}, false};
+  if (start.motionless > std::max(kNoGrowth, kDrowned * std::log(std::abs(start.factor)))) {
+    point.predicted = std::expm1(start.motionless);
+    point.unseen = true;
+    return point;
+  }
   const SimulationInput in = input_of(subject, d, dt, grid);
   point.measured = release(subject, start, in);
   point.noise_grew = noise_grows(subject, in);
@@ -316,6 +331,7 @@ StabilityGrid stability_grid(bool full) {
 }
 
 double StabilityPoint::disagreement() const {
+  if (unseen) return 0.0;
   if (!measured) return std::numeric_limits<double>::infinity();
   return std::abs(*measured - predicted) / std::max(std::abs(predicted), kGrowthFloor);
 }

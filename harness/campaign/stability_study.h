@@ -52,6 +52,9 @@ struct StabilityPoint {
   bool noise_grew = false;              ///< the run from noise blew up
   /// What must happen to noise, where the prediction is decisive: above this growth it must blow up, below none it must not.
   std::optional<bool> noise_should_grow;
+  /// Strains alone grow (or faster than any motion), uniform over the piece, so that they move no disc: unstable, and not
+  /// to be measured; no comparison. Only close to the limit of softness.
+  bool unseen = false;
 
   double disagreement() const;  ///< |measured - predicted| over |predicted|, or over kGrowthFloor where that is more
   bool wrong_side() const;      ///< growth and decay confused, beyond kGrowthFloor; or noise did what it should not
