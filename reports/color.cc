@@ -7,6 +7,20 @@
 
 namespace ddem::reports {
 
+namespace {
+
+Rgb between(std::uint32_t from, std::uint32_t to, double f) {
+  Rgb out{};
+  for (int channel = 0; channel < 3; ++channel) {
+    const int shift = 16 - 8 * channel;
+    const double a = (from >> shift) & 0xFFu, b = (to >> shift) & 0xFFu;
+    out[channel] = static_cast<std::uint8_t>(std::lround(a + f * (b - a)));
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string_view color_hex(Color color) {
   switch (color) {
     case Color::blue:
@@ -47,14 +61,17 @@ Rgb viridis(double t) {
   constexpr int last = static_cast<int>(std::size(anchors)) - 1;
   const double position = (t > 0.0 ? std::min(t, 1.0) : 0.0) * last;
   const int left = std::min(static_cast<int>(position), last - 1);
-  const double f = position - left;
-  Rgb out{};
-  for (int channel = 0; channel < 3; ++channel) {
-    const int shift = 16 - 8 * channel;
-    const double a = (anchors[left] >> shift) & 0xFFu, b = (anchors[left + 1] >> shift) & 0xFFu;
-    out[channel] = static_cast<std::uint8_t>(std::lround(a + f * (b - a)));
-  }
-  return out;
+  return between(anchors[left], anchors[left + 1], position - left);
+}
+
+Rgb diverging(double t) {
+  static constexpr std::uint32_t blues[] = {0xf7f7f7, 0xd1e5f0, 0x92c5de, 0x4393c3, 0x2166ac, 0x053061};
+  static constexpr std::uint32_t reds[] = {0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f};
+  constexpr int last = static_cast<int>(std::size(reds)) - 1;
+  const double position = std::min(std::abs(t), 1.0) * last;
+  const int left = std::min(static_cast<int>(position), last - 1);
+  const auto& anchors = t < 0.0 ? blues : reds;
+  return between(anchors[left], anchors[left + 1], position - left);
 }
 
 std::string hex(Rgb color) {

@@ -21,6 +21,9 @@ Color automatic_color(std::size_t index);
 /// Viridis (van der Walt and Smith, 2015) at t in [0, 1]; outside it is clamped.
 Rgb viridis(double t);
 
+/// Blue at -1 through white at 0 to red at 1 (the ends of ColorBrewer's RdBu); outside it is clamped.
+Rgb diverging(double t);
+
 std::string hex(Rgb color);
 
 }  // namespace ddem::reports

@@ -26,6 +26,7 @@ class Checker {
       check_length("band", b.name, "lower", b.lower.size(), b.x.size());
       check_length("band", b.name, "upper", b.upper.size(), b.x.size());
     }
+    if (plot.map) check_map(*plot.map, plot);
   }
 
   void operator()(const Strip& strip) const {
@@ -54,6 +55,24 @@ class Checker {
                     std::size_t expected) const {
     if (actual == expected) return;
     fail(fmt::format("{} '{}' has {} values of {} for {} of x", kind, name, actual, what, expected));
+  }
+
+  void check_map(const HeatMap& map, const Plot& plot) const {
+    check_centres(map.x, plot.x.scale, "columns");
+    check_centres(map.y, plot.y.scale, "rows");
+    if (map.value.size() != map.x.size() * map.y.size())
+      fail(fmt::format("a heat map of {} x {} cells has {} values", map.x.size(), map.y.size(), map.value.size()));
+    if (!map.value_axis.limits) fail("a heat map needs the limits of its colours");
+    Axis axis = map.value_axis;
+    axis.scale = map.scale == ColorScale::linear ? Scale::linear : Scale::log;
+    check_axis(axis, "colour bar");
+  }
+
+  void check_centres(const std::vector<double>& centres, Scale scale, std::string_view which) const {
+    bool ascending = centres.size() >= 2;
+    for (std::size_t i = 0; i < centres.size(); ++i)
+      ascending = ascending && drawable(centres[i], scale) && (i == 0 || centres[i] > centres[i - 1]);
+    if (!ascending) fail(fmt::format("the {} of a heat map are not two or more in ascending order", which));
   }
 
   void check_axis(const Axis& axis, std::string_view which) const {

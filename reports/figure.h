@@ -72,10 +72,24 @@ struct Pick {
   std::string series = {};  ///< name of the series whose colour it takes
 };
 
+/// From values to colours. log: decades from the lower to the upper limit. signed_log: blue below, white at, red above zero,
+/// by decades of the magnitude between the limits; what is smaller is white.
+enum class ColorScale { linear, log, signed_log };
+
+/// Values over a grid of cells, which fill the panel behind its series.
+struct HeatMap {
+  std::vector<double> x = {};      ///< centres of the columns, ascending; a cell ends halfway between (on the axis's scale)
+  std::vector<double> y = {};      ///< centres of the rows, ascending
+  std::vector<double> value = {};  ///< value[row * columns + column]; not finite (log: not positive): a grey cell
+  Axis value_axis = {};            ///< label and unit of the colour bar; limits are needed, and positive unless linear
+  ColorScale scale = ColorScale::linear;
+};
+
 struct Plot {
   std::string title = {};  ///< of this panel; empty: none
   Axis x = {};
   Axis y = {};
+  std::optional<HeatMap> map = {};
   std::vector<Series> series = {};
   std::vector<Band> bands = {};
   std::vector<ReferenceLine> references = {};
@@ -110,7 +124,8 @@ struct Figure {
 };
 
 /// Throws std::invalid_argument, naming figure and series, if lengths differ within a series, a radius is not
-/// positive and finite, a disc's or probe's position is not finite, or limits are empty or not drawable.
+/// positive and finite, a disc's or probe's position is not finite, a heat map's centres do not ascend, or limits are empty or
+/// not drawable.
 void require_valid(const Figure& figure);
 
 }  // namespace ddem::reports

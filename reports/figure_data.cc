@@ -108,6 +108,7 @@ class CsvWriter {
         series += plot->series.size() + plot->bands.size();
         has_bands_ = has_bands_ || !plot->bands.empty();
         for (const Series& s : plot->series) has_errors_ = has_errors_ || !s.error.empty();
+        if (plot->map) ++series, has_values_ = true;
       } else {
         ++series;
         has_discs_ = true;
@@ -117,7 +118,8 @@ class CsvWriter {
     csv_.text = "panel,kind,name,x,y";
     if (has_errors_) csv_.text += ",error";
     if (has_bands_) csv_.text += ",lower,upper";
-    if (has_discs_) csv_.text += ",radius,value";
+    if (has_discs_) csv_.text += ",radius";
+    if (has_discs_ || has_values_) csv_.text += ",value";
     csv_.text += '\n';
   }
 
@@ -127,6 +129,7 @@ class CsvWriter {
       for (const std::size_t i : kept_rows(s.y))
         row(panel, "series", s.name,
             {.x = s.x[i], .y = s.y[i], .error = s.error.empty() ? kNone : s.error[i]});
+    if (plot.map) add(*plot.map, panel);
     for (const Band& b : plot.bands)
       for (const std::size_t i : kept_rows(b.upper))
         row(panel, "band", b.name, {.x = b.x[i], .lower = b.lower[i], .upper = b.upper[i]});
@@ -167,6 +170,13 @@ class CsvWriter {
     return out + "\"";
   }
 
+  void add(const HeatMap& map, const std::string& panel) {
+    const std::size_t stride = (map.value.size() + rows_per_series_ - 1) / rows_per_series_;
+    csv_.thinned = csv_.thinned || stride > 1;
+    for (std::size_t i = 0; i < map.value.size(); i += stride)
+      row(panel, "cell", map.value_axis.label, {.x = map.x[i % map.x.size()], .y = map.y[i / map.x.size()], .value = map.value[i]});
+  }
+
   std::vector<std::size_t> kept_rows(const std::vector<double>& y) {
     std::vector<std::size_t> rows;
     if (y.size() <= rows_per_series_) {
@@ -189,12 +199,13 @@ class CsvWriter {
     const auto field = [&](double value) { csv_.text.append(",").append(csv_number(value)); };
     if (has_errors_) field(v.error);
     if (has_bands_) field(v.lower), field(v.upper);
-    if (has_discs_) field(v.radius), field(v.value);
+    if (has_discs_) field(v.radius);
+    if (has_discs_ || has_values_) field(v.value);
     csv_.text += '\n';
   }
 
   Csv csv_;
-  bool has_errors_ = false, has_bands_ = false, has_discs_ = false;
+  bool has_errors_ = false, has_bands_ = false, has_discs_ = false, has_values_ = false;
   std::size_t rows_per_series_ = 0;
 };
 
@@ -202,11 +213,15 @@ class CsvWriter {
 
 std::vector<std::string> notes_of(const Figure& figure) {
   Undrawn count;
+  std::size_t grey_cells = 0;
   std::vector<std::string> notes;
   for (const Panel& panel : figure.panels) {
     if (const Plot* plot = std::get_if<Plot>(&panel)) {
       for (const Series& s : plot->series)
         for (std::size_t i = 0; i < s.x.size(); ++i) count_point(count, *plot, s.x[i], s.y[i]);
+      if (plot->map)
+        grey_cells += static_cast<std::size_t>(std::count_if(plot->map->value.begin(), plot->map->value.end(),
+                                                             [](double v) { return !std::isfinite(v); }));
       for (const Band& b : plot->bands)
         for (std::size_t i = 0; i < b.x.size(); ++i) {
           const bool whole = std::isfinite(b.lower[i]);
@@ -222,6 +237,7 @@ std::vector<std::string> notes_of(const Figure& figure) {
     if (discs_drawn(strip) < strip.x.size())
       notes.push_back(fmt::format("{} of {} discs are drawn, enlarged.", discs_drawn(strip), strip.x.size()));
   }
+  if (grey_cells > 0) notes.push_back(note(grey_cells, "cell without a value is grey.", "cells without a value are grey."));
   if (count.missing > 0)
     notes.push_back(note(count.missing, "missing value is a gap.", "missing values are gaps."));
   if (count.not_positive > 0)

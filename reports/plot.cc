@@ -8,6 +8,7 @@
 #include "reports/axis.h"
 #include "reports/color.h"
 #include "reports/decimate.h"
+#include "reports/heat_map.h"
 #include "reports/label_placer.h"
 #include "reports/path.h"
 #include "reports/plot_limits.h"
@@ -123,7 +124,8 @@ void PlotPainter::draw_axes() {
                       {"width", area_.width},
                       {"height", area_.height},
                       {"fill", "#fafbfc"}});
-  out_.open("g", {{"class", "grid"}, {"stroke", "#e3e6ea"}});
+  if (plot_.map) draw_cells(out_, *plot_.map, plot_, x_, y_, area_);
+  out_.open("g", {{"class", "grid"}, {"stroke", plot_.map ? "none" : "#e3e6ea"}});
   for (const Tick& t : x.ticks) {
     const double px = x_.pixel(t.value);
     out_.empty("line", {{"x1", px}, {"x2", px}, {"y1", area_.top}, {"y2", area_.bottom()}});
@@ -343,7 +345,8 @@ double left_margin(const Plot& plot, double height) {
 
 void draw_plot(Markup& out, const Plot& plot, const StyleBook& styles, const Rect& frame, double margin) {
   const double top = top_margin(plot);
-  const Rect area = snapped({frame.left + margin, frame.top + top, frame.width - margin - kRight,
+  const double right = plot.map ? kColorBarRoom : kRight;
+  const Rect area = snapped({frame.left + margin, frame.top + top, frame.width - margin - right,
                              frame.height - top - bottom_margin()});
   out.open("g", {{"class", "plot"}}).newline();
   if (!plot.title.empty())
@@ -355,6 +358,7 @@ void draw_plot(Markup& out, const Plot& plot, const StyleBook& styles, const Rec
                  {"font-size", kTickFont + 1}},
                 plot.title);
   PlotPainter(out, plot, styles, area).draw();
+  if (plot.map) draw_color_bar(out, *plot.map, area);
   out.close().newline();
 }
 

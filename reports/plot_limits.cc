@@ -1,11 +1,13 @@
 #include "reports/plot_limits.h"
 
 #include "reports/axis.h"
+#include "reports/heat_map.h"
 
 namespace ddem::reports {
 
 Limits x_limits(const Plot& plot) {
   if (plot.x.limits) return *plot.x.limits;
+  if (plot.map) return map_extent(plot.map->x, plot.x.scale);
   Extent extent(plot.x.scale);
   bool markers = false;
   for (const Series& s : plot.series) {
@@ -23,6 +25,7 @@ Limits x_limits(const Plot& plot) {
 
 Limits y_limits(const Plot& plot) {
   if (plot.y.limits) return *plot.y.limits;
+  if (plot.map) return map_extent(plot.map->y, plot.y.scale);
   Extent extent(plot.y.scale);
   for (const Series& s : plot.series)
     for (std::size_t i = 0; i < s.y.size(); ++i) {

@@ -20,6 +20,7 @@ constexpr int kRefinements = 6;       // of the grid around its worst wave, by 2
 constexpr double kNearCentre = 1e-3;
 constexpr double kNoGrowth = 1e-9;    // round-off of an eigenvalue near a double one is 1e-16 / (omega dt), 1e-12 here
 constexpr double kStepAccuracy = 1e-4;
+constexpr double kMotion = 1e-10;     // of a unit state (u, dt v, eps): less is the round-off of strains that move nothing
 
 struct Direction2 {
   double x, y;
@@ -193,6 +194,27 @@ std::vector<Complex> HexagonalBloch::multipliers(WaveVector k, double dt) const 
     z.push_back(half - root);
   }
   return z;
+}
+
+std::vector<WaveMode> HexagonalBloch::modes(WaveVector k, double dt) const {
+  std::vector<WaveMode> result;
+  if (deformation_.scheme == Scheme::lagged) {
+    const Eigen::ComplexEigenSolver<Matrix> solver(lagged_map(cell(k), dt));
+    if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvectors did not converge");
+    for (int m = 0; m < 2 * dofs_ + 3; ++m) {
+      Eigen::VectorXcd motion = solver.eigenvectors().col(m).head(dofs_);
+      const double size = motion.norm();
+      motion *= size > kMotion ? 1.0 / size : 0.0;
+      result.push_back({solver.eigenvalues()[m], motion});
+    }
+    return result;
+  }
+  for (const Branch& b : branches(k)) {
+    const Complex half = 1.0 - 0.5 * dt * dt * b.frequency * b.frequency, root = std::sqrt(half * half - 1.0);
+    result.push_back({half + root, b.motion});
+    result.push_back({half - root, b.motion});
+  }
+  return result;
 }
 
 Complex HexagonalBloch::multiplier_of(WaveVector k, double dt, double frequency) const {

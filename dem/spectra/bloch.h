@@ -38,6 +38,12 @@ struct Branch {
   Eigen::VectorXcd motion;
 };
 
+/// A free wave of the scheme: Re(z^n motion exp(i k.x)), z its factor a step, the motion of a disc as in Branch.
+struct WaveMode {
+  std::complex<double> factor;
+  Eigen::VectorXcd motion;
+};
+
 /// Where in the zone of wave vectors the scheme grows most.
 struct WorstWave {
   double growth = 0.0;  ///< |z| - 1 of a step, negative where every wave decays
@@ -62,6 +68,9 @@ class HexagonalBloch {
 
   /// Factors z of one step `dt` (s): two a degree of freedom, and three of the strains for the lagged scheme.
   std::vector<std::complex<double>> multipliers(WaveVector k, double dt) const;
+
+  /// The same with their motions. Lagged strains have modes without motion, whose factors are those of the strains alone.
+  std::vector<WaveMode> modes(WaveVector k, double dt) const;
 
   /// Of multipliers(k, dt), the one that continues the frequency: nearest to exp(i omega dt).
   std::complex<double> multiplier_of(WaveVector k, double dt, double frequency) const;

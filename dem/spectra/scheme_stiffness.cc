@@ -52,6 +52,16 @@ Eigen::VectorXd apply_series(const std::vector<double>& series, double high, con
   return argument(b1) - b2 + series[0] * x;
 }
 
+/// g(T) (V C)^-1, the spectrum of T below its `radius`, g smooth below `reach`.
+std::function<Eigen::VectorXd(const Eigen::VectorXd&)> function_of_iteration(const Operators& op, const std::function<double(double)>& g, double radius, double reach) {
+  // Lanczos finds the radius to 1e-5 or better; the series may reach a little beyond it, but not to the pole.
+  const double high = std::min(radius * (1.0 + 1e-4), 0.5 * (radius + reach));
+  const auto t = std::make_shared<StrainIteration>(op);
+  return [t, high, series = chebyshev_series(g, high)](const Eigen::VectorXd& stress) -> Eigen::VectorXd {
+    return t->upper_solve(apply_series(series, high, *t, t->lower_solve(stress)));
+  };
+}
+
 }  // namespace
 
 Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
@@ -98,12 +108,18 @@ SchemeStiffness SchemeStiffness::flip(const Operators& op, const DeformationPara
     const double r = 1.0 - w - w * b;
     return (1.0 - 2.0 * std::pow(r, s - 1) / (1.0 + std::pow(r, s))) / (1.0 + b);
   };
-  // Lanczos finds the radius to 1e-5 or better; the series may reach a little beyond it, but not to the pole.
-  const double high = std::min(radius * (1.0 + 1e-4), 0.5 * (radius + reach));
-  const auto t = std::make_shared<StrainIteration>(op);
-  return {op, [t, high, series = chebyshev_series(g, high)](const Eigen::VectorXd& stress) -> Eigen::VectorXd {
-            return t->upper_solve(apply_series(series, high, *t, t->lower_solve(stress)));
-          }};
+  return {op, function_of_iteration(op, g, radius, reach)};
+}
+
+SchemeStiffness SchemeStiffness::lag(const Operators& op, const DeformationParameters& d, double radius) {
+  const double w = d.relaxation, reach = 2.0 / w - 1.0;
+  if (!(radius < reach)) throw std::invalid_argument("the lagged strains do not converge: they lag without bound");
+  const int s = d.evaluations;
+  const auto g = [=](double b) {
+    const double r = 1.0 - w - w * b;
+    return std::pow(r, s - 1) / ((1.0 - std::pow(r, s)) * (1.0 + b));
+  };
+  return {op, function_of_iteration(op, g, radius, reach)};
 }
 
 Eigen::VectorXd SchemeStiffness::apply(const Eigen::VectorXd& q) const {

@@ -6,6 +6,9 @@
 //   eps_{m+1} = R eps_m + w H u, R = 1 - w - w T, T = (V C_p)^-1 S K G, over the s evaluations of a step, hence
 //     Q = g(T) (V C_p)^-1,  g(b) = (1 - 2 r^(s-1) / (1 + r^s)) / (1 + b),  r = 1 - w - w b.
 //   For s = 1 that is Q = -((2/w - 1) V C_p - S K G)^-1.
+//   lagged, a slow motion: its strains are converged ones less dt Q S K C u', with
+//     Q = g(T) (V C_p)^-1,  g(b) = r^(s-1) / ((1 - r^s) (1 + b)),
+//   since a step leaves R^s of what its strains lack, and the force is taken one evaluation before its end.
 
 #include <Eigen/SparseCholesky>
 #include <functional>
@@ -22,6 +25,12 @@ class SchemeStiffness {
 
   /// `radius` is the spectral radius of T, and must be below 2/w - 1: throws std::invalid_argument otherwise.
   static SchemeStiffness flip(const Operators& operators, const DeformationParameters& deformation, double radius);
+
+  /// Of the strains that a slow motion lacks, over dt: strains(S K C u') alone, not a stiffness. Same condition.
+  static SchemeStiffness lag(const Operators& operators, const DeformationParameters& deformation, double radius);
+
+  /// Q times that; not for plain DEM.
+  Eigen::VectorXd strains(const Eigen::VectorXd& stress) const { return strains_(stress); }
 
   /// The operators must outlive this.
   Eigen::VectorXd apply(const Eigen::VectorXd& q) const;

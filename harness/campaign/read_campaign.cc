@@ -49,6 +49,15 @@ Setter integer(std::int64_t& member, std::int64_t low, std::int64_t high) {
   };
 }
 
+Setter yes_or_no(bool& member) {
+  return [&member](const Node& node) -> std::string {
+    const auto* value = std::get_if<bool>(&node.value);
+    if (value == nullptr) return "give true or false";
+    member = *value;
+    return "";
+  };
+}
+
 Setter ratios(std::vector<double>& member) {
   return [&member](const Node& node) -> std::string {
     const char* remedy = "give a list of different numbers from 0 to 1, such as [0.0, 0.5, 1.0]";
@@ -129,7 +138,8 @@ std::map<std::string, Setter> setters(StripCampaign& c) {
           {"particle_poisson_ratio", positive(c.particle_poisson_ratio, Dimension::none, 0.99)},
           {"step_fraction", positive(c.step_fraction, Dimension::none, 1.0)},
           {"pulse_length", positive(c.pulse_length, Dimension::length)},
-          {"fem_degree", integer(c.fem_degree, 1, 8)}};
+          {"fem_degree", integer(c.fem_degree, 1, 8)},
+          {"full_stability", yes_or_no(c.full_stability)}};
 }
 
 }  // namespace

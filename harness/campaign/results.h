@@ -7,8 +7,10 @@
 
 #include "dem/statics/moduli.h"
 #include "harness/bench/precision.h"
+#include "harness/campaign/dispersion_study.h"
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
+#include "harness/campaign/stability_study.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/measure/elastic_constants.h"
 #include "harness/run/scene_moduli.h"
@@ -113,6 +115,8 @@ struct CampaignResults {
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
   std::vector<bench::PrecisionPoint> work_precision;  ///< of a small measurement, for the report's figure; no verdict
+  std::vector<StabilityMap> stability_maps;
+  std::optional<DispersionStudy> dispersion;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;

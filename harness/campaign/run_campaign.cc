@@ -279,7 +279,7 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 }  // namespace
 
 std::size_t campaign_work(const StripCampaign& s, const CampaignOptions& options) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 1 : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 2 + stability_grid(s.full_stability).maps.size() : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -311,15 +311,23 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
   };
   // The finite elements first: they are the longest job.
   const std::size_t fem_jobs = options.with_fem ? 1 : 0;
-  const std::size_t long_jobs = fem_jobs + 1;
+  const StabilityGrid grid = stability_grid(s.full_stability);
+  const std::size_t maps = options.with_studies ? grid.maps.size() : 0;
+  results.stability_maps.resize(maps);
+  const std::size_t first_map = fem_jobs + 1, long_jobs = first_map + maps;
   run_jobs(long_jobs + lattices.size() + cases.size(), options.jobs, [&](std::size_t job) {
     if (job < fem_jobs) {
       run_all_fem(s, results, options);
+    } else if (job >= first_map && job < long_jobs) {
+      results.stability_maps[job - first_map] = map_stability(s, grid, grid.maps[job - first_map]);
+      progress(1);
     } else if (job < long_jobs) {
       if (!options.with_studies) return;
       results.schemes = study_schemes(s, [&] { progress(1); });
       results.range = study_range(s);
       results.work_precision = bench::measure_briefly();
+      progress(1);
+      results.dispersion = study_dispersion(s, options.with_fem);
       progress(1);
     } else if (job < long_jobs + lattices.size()) {
       results.stability[job - long_jobs] = release_noise(s, lattices[job - long_jobs], options);

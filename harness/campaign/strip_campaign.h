@@ -42,6 +42,7 @@ struct StripCampaign {
   double pulse_length = 8e-3;             ///< of the driven pulse in the strip, m (support)
   std::int64_t fem_degree = 4;
   std::array<std::int64_t, 2> fem_elements = {33, 4};  ///< along x and y: 0.5 mm each, for pulses of 8 mm
+  bool full_stability = false;  ///< the study of stability over all of its grid: many minutes
 };
 
 /// One simulation of the campaign.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "harness/campaign/dispersion_figures.h"
+#include "harness/campaign/stability_figures.h"
 #include "harness/campaign/waveforms.h"
 
 namespace ddem::harness {
@@ -260,6 +262,10 @@ std::vector<Verdict> verdicts_of(const CampaignResults& r) {
     for (const auto& verdict : {energy_verdict, order_verdict, reach_verdict}) verdicts.push_back(verdict(*r.schemes));
   }
   if (r.range) verdicts.push_back(range_verdict(*r.range));
+  if (r.dispersion) {
+    for (const DispersionPanel& panel : r.dispersion->panels) verdicts.push_back(dispersion_verdict(panel));
+  }
+  for (const StabilityMap& map : r.stability_maps) verdicts.push_back(stability_map_verdict(map));
   for (Verdict& v : verdicts) {
     if (v.reproduce.empty()) v.reproduce = fmt::format("ddem validate --only {}", v.case_id);
   }

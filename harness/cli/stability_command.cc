@@ -79,8 +79,12 @@ void print_growth_without_energy(const SceneStability& s) {
                           s.deformation.scheme == Scheme::lagged ? "the lag's damping may hide it" : "at any step"));
   } else if (s.flutter) {
     print_row("flutter", "none found", fmt::format("down to growth rates of {:.2g} omega_max", s.flutter->detectable));
+  } else if (s.noise_flutter) {
+    const NoiseFlutter& f = *s.noise_flutter;
+    print_row("flutter", f.found ? fmt::format("{:.3g} omega_max", f.growth_rate / f.largest_frequency) : "none found",
+              f.found ? "growth rate of noise with converged strains" : fmt::format("from noise with converged strains, down to growth rates of {:.2g} omega_max", f.detectable));
   } else {
-    print_row("flutter", "not sought", s.lattice ? "the hexagonal lattice has none" : "too many discs");
+    print_row("flutter", "not sought", "the hexagonal lattice has none");
   }
   if (s.noise) {
     print_row("noise in a run", s.noise->diverged ? "diverged" : fmt::format("{:+.3g}", s.noise->growth),

@@ -64,13 +64,15 @@ double crest_offset(double before, double at, double after) {
   return curvature < 0.0 ? 0.5 * (before - after) / curvature : 0.0;
 }
 
-std::optional<RidgePoint> highest_crest(const FkSpectrum& s, Eigen::Index row) {
+std::optional<RidgePoint> highest_crest(const FkSpectrum& s, Eigen::Index row, double from, double to) {
   const Eigen::RowVectorXd a = s.amplitude.row(row);
   std::vector<double> sorted(a.begin(), a.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double median = sorted[sorted.size() / 2];
   Eigen::Index best = 0;
   for (Eigen::Index n = 1; n + 1 < a.size(); ++n) {
+    const double frequency = s.frequency[static_cast<std::size_t>(n)];
+    if (frequency < from || frequency > to) continue;
     if (a[n] >= a[n - 1] && a[n] > a[n + 1] && (best == 0 || a[n] > a[best])) best = n;
   }
   if (best == 0 || !(a[best] > kCrestOverMedian * median)) return std::nullopt;
@@ -111,9 +113,13 @@ FkSpectrum fk_spectrum(std::span<const std::vector<double>> signals, double spac
 std::vector<RidgePoint> main_ridge(const FkSpectrum& spectrum) {
   std::vector<RidgePoint> ridge;
   for (Eigen::Index row = 0; row < spectrum.amplitude.rows(); ++row) {
-    if (const auto point = highest_crest(spectrum, row)) ridge.push_back(*point);
+    if (const auto point = highest_crest(spectrum, row, 0.0, HUGE_VAL)) ridge.push_back(*point);
   }
   return ridge;
+}
+
+std::optional<RidgePoint> crest_near(const FkSpectrum& spectrum, std::size_t row, double frequency, double share) {
+  return highest_crest(spectrum, static_cast<Eigen::Index>(row), frequency * (1.0 - share), frequency * (1.0 + share));
 }
 
 }  // namespace ddem::harness

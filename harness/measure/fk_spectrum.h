@@ -2,6 +2,7 @@
 // Frequency-wavenumber spectra: which waves travel in a line of receivers, and their dispersion relation.
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,5 +31,9 @@ struct RidgePoint {
 /// line, within 0.02 of a resolved interval 2 pi/duration for a Hann line). A wavenumber whose highest crest does not
 /// stand ten times above the median of its amplitudes has none: white noise reaches four times.
 std::vector<RidgePoint> main_ridge(const FkSpectrum& spectrum);
+
+/// The highest crest of the wavenumber `row` within `share` of a frequency (rad/s), where other branches are in the spectrum
+/// too; none where that does not stand ten times above the median of the row.
+std::optional<RidgePoint> crest_near(const FkSpectrum& spectrum, std::size_t row, double frequency, double share);
 
 }  // namespace ddem::harness

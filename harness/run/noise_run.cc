@@ -5,12 +5,13 @@
 #include <random>
 
 #include "dem/core/packing.h"
+#include "dem/spectra/spectra.h"
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kWork = 2e8;
 constexpr long kFewestSteps = 10'000, kMostSteps = 100'000;
+constexpr double kFlutterStep = 0.5, kFlutterWork = 2e9;
 constexpr std::size_t kReceivers = 32;
 constexpr int kSampleEvery = 16;
 // In a run that neither grows nor decays, the root mean squares of 32 discs' noise over two quarters (of 600 samples or
@@ -38,7 +39,7 @@ double amplitude(const Signals& s, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-NoiseRun run_noise(const Assembly& assembly, SimulationInput input) {
+NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work) {
   std::mt19937_64 generator(1);
   const double size = 1e-6 * mean_radius(assembly.packing);
   const std::size_t n = assembly.size();
@@ -50,8 +51,8 @@ NoiseRun run_noise(const Assembly& assembly, SimulationInput input) {
   const std::size_t stride = std::max<std::size_t>(1, n / kReceivers);
   for (std::size_t d = 0; d < n; d += stride) input.receivers.push_back({{static_cast<int>(d)}});
   input.sample_every = kSampleEvery;
-  const double work = static_cast<double>(assembly.bonds.size()) * std::max(1, input.deformation.evaluations);
-  input.steps = std::clamp(static_cast<long>(kWork / std::max(1.0, work)), kFewestSteps, kMostSteps);
+  const double step = static_cast<double>(assembly.bonds.size()) * std::max(1, input.deformation.evaluations);
+  input.steps = std::clamp(static_cast<long>(work / std::max(1.0, step)), kFewestSteps, kMostSteps);
 
   const SimulationResult result = simulate(assembly, input);
   NoiseRun run;
@@ -67,6 +68,27 @@ NoiseRun run_noise(const Assembly& assembly, SimulationInput input) {
   run.resolution = kAmplitudeScatter / steps;
   if (third > 0.0 && last > 0.0) run.growth = std::expm1(std::log(last / third) / steps);
   return run;
+}
+
+NoiseFlutter flutter_from_noise(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, const HeldDofs& held) {
+  NoiseFlutter flutter;
+  flutter.largest_frequency = largest_converged_frequency(assembly, contact, deformation, held);
+  SimulationInput in;
+  in.contact = contact;
+  in.contact.kinematics = Kinematics::linear;
+  in.deformation = deformation;
+  in.deformation.scheme = Scheme::implicit;
+  in.deformation.evaluations = 1;
+  in.deformation.relaxation = 1.0;
+  in.held = held;
+  in.time_step = kFlutterStep * 2.0 / flutter.largest_frequency;
+  const NoiseRun noise = run_noise(assembly, in, kFlutterWork);
+  flutter.growth_rate = std::log1p(noise.growth) / in.time_step;
+  // What flutters has a share of 1/sqrt(2 discs) of the noise, and stands out when it has grown beyond all of it.
+  const double needed = 0.5 * std::log(2.0 * static_cast<double>(assembly.size())) / (0.75 * static_cast<double>(noise.steps) * in.time_step);
+  flutter.detectable = needed / flutter.largest_frequency;
+  flutter.found = noise.diverged || flutter.growth_rate > needed;
+  return flutter;
 }
 
 }  // namespace ddem::harness

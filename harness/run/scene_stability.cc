@@ -78,7 +78,13 @@ void find_limits(SceneStability& s, const ddem::Assembly& a, const ContactParame
     if (factor) s.softness_limit_at_step = *factor * s.softness;
   }
   if (s.has_energy()) return;
-  if (a.size() <= kLargestFlutterSearch && !hexagonal) s.flutter = find_flutter(a, contact, s.deformation, held);
+  if (!hexagonal) {
+    if (a.size() <= kLargestFlutterSearch) {
+      s.flutter = find_flutter(a, contact, s.deformation, held);
+    } else {
+      s.noise_flutter = flutter_from_noise(a, contact, s.deformation, held);
+    }
+  }
   SimulationInput in;
   in.contact = contact;
   in.contact.kinematics = Kinematics::linear;
@@ -103,7 +109,8 @@ std::vector<std::string> SceneStability::instabilities() const {
   } else if (critical.step && time_step > *critical.step) {
     reasons.push_back("the step is above the critical one");
   }
-  if (flutter && flutter->frequency && deformation.scheme == Scheme::implicit) {
+  const bool flutters = (flutter && flutter->frequency) || (noise_flutter && noise_flutter->found);
+  if (flutters && deformation.scheme == Scheme::implicit) {
     reasons.push_back("the normal-only correction flutters at any step: it has no energy");
   }
   if (noise && (noise->diverged || noise->growth > noise->resolution)) {

@@ -30,7 +30,8 @@ struct SceneStability {
   double radius_limit = 0.0;                  ///< lagged: 2/w - 1
   std::optional<double> softness_limit;       ///< lagged: of k_n/(E_p h), at vanishing steps
   std::optional<double> softness_limit_at_step;
-  std::optional<FlutterSearch> flutter;       ///< N with shear stiffness; not for lattices nor many discs
+  std::optional<FlutterSearch> flutter;       ///< N with shear stiffness; not for lattices nor above 5000 discs
+  std::optional<NoiseFlutter> noise_flutter;  ///< likewise above 5000 discs
   std::optional<NoiseRun> noise;              ///< N with shear stiffness
   std::optional<LatticeStability> lattice;    ///< hexagonal packings
   std::vector<WaveGrowth> waves;

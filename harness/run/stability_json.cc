@@ -53,9 +53,17 @@ void add_softness(Json& j, const SceneStability& s) {
 
 void add_growth_without_energy(Json& j, const SceneStability& s) {
   const std::string energy = "none: the scheme derives from an energy";
-  j["flutter"] = status(s.has_energy() ? energy : s.lattice ? "the hexagonal lattice has none" : "not looked for: too many discs");
+  j["flutter"] = status(s.has_energy() ? energy : "the hexagonal lattice has none");
+  if (s.noise_flutter) {
+    const NoiseFlutter& f = *s.noise_flutter;
+    j["flutter"] = {{"method", "noise_run"}, {"detectable", f.detectable}, {"status", f.found ? "ok" : "none found"}};
+    if (f.found) {
+      j["flutter"]["growth_rate"] = f.growth_rate;
+      j["flutter"]["growth_rate_over_largest_frequency"] = f.growth_rate / f.largest_frequency;
+    }
+  }
   if (s.flutter) {
-    j["flutter"] = {{"detectable", s.flutter->detectable}};
+    j["flutter"] = {{"method", "arnoldi"}, {"detectable", s.flutter->detectable}};
     if (s.flutter->frequency) {
       j["flutter"]["status"] = "ok";
       j["flutter"]["frequency"] = s.flutter->frequency->real();

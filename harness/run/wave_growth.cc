@@ -1,16 +1,18 @@
 #include "harness/run/wave_growth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <optional>
 
+#include "dem/spectra/lag_damping.h"
+#include "dem/spectra/spectra.h"
+#include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/run/scene_moduli.h"
 
 namespace ddem::harness {
 namespace {
-
-constexpr double kModulusStep = 1e-3;  // of ln E_p, in central differences
 
 const char* name_of(const Branch& branch) {
   Eigen::Index largest = 0;
@@ -18,11 +20,32 @@ const char* name_of(const Branch& branch) {
   return largest == 0 ? "p" : largest == 1 ? "shear" : "rotation";
 }
 
-/// theory section 3: |z| - 1 = -(omega dt)(omega tau)/2, tau = dt b r^(s-1)/(1 - r^s), r = 1 - w - w b.
-double lag_growth(const DeformationParameters& d, double omega_dt, double b) {
-  if (d.scheme != Scheme::lagged) return 0.0;
-  const double r = 1.0 - d.relaxation - d.relaxation * b;
-  return -0.5 * omega_dt * omega_dt * b * std::pow(r, d.evaluations - 1) / (1.0 - std::pow(r, d.evaluations));
+constexpr MacroStrain kStretch{1.0, 0.0, 0.0}, kShear{0.0, 0.0, 1.0};
+
+/// Discs at both ends of a strip, which statics hold.
+HeldDofs held_ends(const Packing& p, double edge_band, bool y_and_theta) {
+  HeldDofs held;
+  if (p.period.x > 0.0) return held;
+  held.x.assign(p.size(), 0);
+  for (const ddem::Edge e : {ddem::Edge::left, ddem::Edge::right}) {
+    for (const int d : edge_discs(p, e, edge_band)) held.x[d] = 1;
+  }
+  if (y_and_theta) held.y = held.theta = held.x;
+  return held;
+}
+
+/// s of lag_damping.h, in the inner three fifths of a strip.
+double share_of(const Scene& scene, const ddem::Assembly& a, const MacroStrain& strain, bool free_strip) {
+  const ContactParameters contact = contact_parameters(scene);
+  const DeformationParameters d = deformation_parameters(scene);
+  const StaticSolver solver(a, contact, d, held_ends(a.packing, edge_band(scene, a), !free_strip));
+  const auto [lo, hi] = std::minmax_element(a.packing.x.begin(), a.packing.x.end());
+  const InnerSection section = a.packing.period.x > 0.0 ? InnerSection{*lo, *hi} : InnerSection{*lo + 0.2 * (*hi - *lo), *lo + 0.8 * (*hi - *lo)};
+  try {
+    return lag_share(a, solver, d, fixed_point_radius(a, contact, d), strain, section);
+  } catch (const std::invalid_argument& e) {
+    throw InputError(scene.path.string() + ": [deformation]: " + e.what());
+  }
 }
 
 }  // namespace
@@ -46,29 +69,25 @@ std::vector<WaveGrowth> lattice_waves(const HexagonalBloch& bloch, double dt, co
 }
 
 std::vector<WaveGrowth> static_waves(const Scene& scene, double dt, const std::vector<double>& wavelengths) {
-  const auto speeds = [&](double factor) {
-    Scene changed = scene;
-    if (changed.deformation) changed.deformation->young_modulus *= factor;
-    const SceneModuli m = scene_moduli(changed);
-    const bool periodic = scene.assembly.periodic.y;
-    return std::pair{m.speed_of(Wave::shear, periodic), m.speed_of(Wave::longitudinal, periodic)};
-  };
-  const DeformationParameters d = deformation_parameters(scene);
-  const auto now = speeds(1.0);
-  const bool lagged = d.scheme == Scheme::lagged;
-  const auto soft = lagged ? speeds(std::exp(-kModulusStep)) : now, stiff = lagged ? speeds(std::exp(kModulusStep)) : now;
+  const bool periodic = scene.assembly.periodic.y, lagged = deformation_parameters(scene).scheme == Scheme::lagged;
+  const SceneModuli moduli = scene_moduli(scene);
+  const auto shear = moduli.speed_of(Wave::shear, periodic), longitudinal = moduli.speed_of(Wave::longitudinal, periodic);
+  double shear_share = 0.0, longitudinal_share = 0.0;
+  if (lagged) {
+    const ddem::Assembly a = build_assembly(scene);
+    longitudinal_share = share_of(scene, a, kStretch, !periodic);
+    // Statics take the shear modulus of a free strip from its laterally closed counterpart.
+    if (shear) shear_share = share_of(scene, periodic ? a : build_laterally_closed(scene).value(), kShear, false);
+  }
   std::vector<WaveGrowth> waves;
-  const auto add = [&](const char* name, double wavelength, const auto& speed) {
-    if (!(now.*speed)) return;
-    const double omega = 2.0 * std::numbers::pi / wavelength * *(now.*speed);
-    // C goes with the square of the speed.
-    const double share = lagged ? 2.0 * std::log(*(stiff.*speed) / *(soft.*speed)) / (2.0 * kModulusStep) : 0.0;
-    waves.push_back({name, wavelength, omega, lag_growth(d, omega * dt, share / (1.0 - share)), false});
+  const auto add = [&](const char* name, double wavelength, const std::optional<double>& speed, double share) {
+    if (!speed) return;
+    const double omega = 2.0 * std::numbers::pi / wavelength * *speed;
+    waves.push_back({name, wavelength, omega, -0.5 * omega * dt * omega * dt * share, false});
   };
-  using Speeds = std::remove_cvref_t<decltype(now)>;
   for (const double wavelength : wavelengths) {
-    add("shear", wavelength, &Speeds::first);
-    add(scene.assembly.periodic.y ? "p" : "bar", wavelength, &Speeds::second);
+    add("shear", wavelength, shear, shear_share);
+    add(periodic ? "p" : "bar", wavelength, longitudinal, longitudinal_share);
   }
   return waves;
 }

@@ -24,10 +24,9 @@ struct WaveGrowth {
 /// Waves of the infinite lattice, exact; `time_step` in s, wavelengths in m.
 std::vector<WaveGrowth> lattice_waves(const HexagonalBloch& bloch, double time_step, const std::vector<double>& wavelengths);
 
-/// Long waves of any assembly, from its static moduli. The stiffness that a wave meets with strains that lag by one
-/// evaluation is the converged one with z E_p in place of E_p, hence d ln C / d ln E_p = b/(1 + b), the share of the
-/// strains in its energy, gives the first-order damping (theory section 3): exactly for one evaluation; with the mean b
-/// of the wave for more, which for three evaluations on a random packing is 15 % off. Throws as scene_moduli().
+/// Long waves of any assembly: frequencies from its static moduli, the damping or growth by strains that lag from its
+/// static deformation (dem/spectra/lag_damping.h), first order in omega dt. Throws as scene_moduli(), and InputError where
+/// the lagged strains do not converge.
 std::vector<WaveGrowth> static_waves(const Scene& scene, double time_step, const std::vector<double>& wavelengths);
 
 }  // namespace ddem::harness

@@ -70,11 +70,12 @@ std::string failures(const Verdicts& verdicts) {
 TEST(Campaign, PassesUndisturbed) {
   CampaignOptions all = options(fem_is_built());
   all.with_studies = true;
+  all.jobs = 2;
   const CampaignResults r = run_campaign(reduced(), all);
   const Verdicts verdicts = verdicts_of(r);
   EXPECT_EQ(failures(verdicts), "");
   EXPECT_EQ(r.fem_failure, "");
-  for (const char* study : {"schemes/energy", "schemes/order", "schemes/reach", "schemes/range"}) {
+  for (const char* study : {"schemes/energy", "schemes/order", "schemes/reach", "schemes/range", "dispersion/implicit-full", "stability-map/random/lagged-full/kt0.30/nu0.30"}) {
     EXPECT_FALSE(verdict(verdicts, study).criteria.empty()) << study;
   }
   // Two models, of each at least: static, lattice, random, the paper's protocol.

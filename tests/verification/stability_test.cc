@@ -95,7 +95,9 @@ double decay(const Scene& scene, const DeformationParameters& deformation, doubl
 }
 
 TEST(SceneStability, LagDampingOfALongWaveInARandomPacking) {
-  for (const char* options : {"correction = \"full\"", "correction = \"normal\"", "correction = \"full\"\nrelaxation = 0.5"}) {
+  for (const char* options : {"correction = \"full\"", "correction = \"normal\"", "correction = \"full\"\nrelaxation = 0.5",
+                              "correction = \"full\"\nevaluations = 3", "correction = \"full\"\nevaluations = 2\nrelaxation = 0.5",
+                              "correction = \"normal_only_stress\"\nevaluations = 3"}) {
     const Scene scene = scene_of(random_scene(options));
     const ddem::Assembly a = build_assembly(scene);
     const double dt = 0.5 * 2.0 / largest_frequency(a, contact_parameters(scene), {});

@@ -46,6 +46,21 @@ TEST(FkSpectrum, FindsTheDispersionRelation) {
   }
 }
 
+TEST(FkSpectrum, FindsALowCrestNearItsBranch) {
+  // Waves of one wavenumber and two frequencies: the lower crest is found where it is asked for.
+  const double k = 2.0 * std::numbers::pi * 12 / (kReceivers * kSpacing), high = dispersion(k), low = 0.6 * high;
+  Lines u = waves({12});
+  for (std::size_t x = 0; x < kReceivers; ++x) {
+    for (std::size_t n = 0; n < kSamples; ++n) u[x][n] += 0.2 * std::cos(k * kSpacing * static_cast<double>(x) - low * kDt * static_cast<double>(n));
+  }
+  const FkSpectrum s = fk_spectrum(u, kSpacing, kDt);
+  const double resolved = 2.0 * std::numbers::pi / (kSamples * kDt);
+  const auto crest = crest_near(s, 12, 1.02 * low, 0.05);
+  ASSERT_TRUE(crest.has_value());
+  EXPECT_NEAR(crest->frequency, low, 0.02 * resolved);
+  EXPECT_NEAR(crest_near(s, 12, high, 0.05).value().frequency, high, 0.02 * resolved);
+}
+
 TEST(FkSpectrum, AxesReachTheNyquistLimits) {
   const FkSpectrum s = fk_spectrum(waves({5}), kSpacing, kDt);
   EXPECT_NEAR(s.wavenumber.back(), std::numbers::pi / kSpacing, 1e-12);

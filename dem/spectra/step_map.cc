@@ -1,0 +1,111 @@
+#include "dem/spectra/step_map.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <stdexcept>
+
+#include "dem/spectra/scheme_stiffness.h"
+
+namespace ddem {
+namespace {
+
+using Eigen::MatrixXd;
+using Complex = std::complex<double>;
+
+void require_success(Eigen::ComputationInfo info) {
+  if (info != Eigen::Success) throw std::runtime_error("step map: the eigenvalues did not converge");
+}
+
+Eigen::VectorXcd scaled_to_one(Eigen::VectorXcd motion) {
+  Eigen::Index largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  return motion / motion[largest];
+}
+
+/// Factors whose magnitudes differ by round-off alone are told apart by their frequencies.
+bool leads(const Complex& z, const Complex& best) {
+  const double difference = std::abs(z) - std::abs(best);
+  return difference > 1e-12 || (std::abs(difference) <= 1e-12 && std::abs(std::arg(z)) > std::abs(std::arg(best)));
+}
+
+class Leader {
+ public:
+  void look(const Complex& z, Eigen::Index column) {
+    if (std::abs(z - 1.0) < kTranslationFactor || (column_ >= 0 && !leads(z, factor_))) return;
+    factor_ = z, column_ = column;
+  }
+  Complex factor() const { return factor_; }
+  Eigen::Index column() const {
+    if (column_ < 0) throw std::runtime_error("step map: the assembly has no motion but rigid ones");
+    return column_;
+  }
+
+ private:
+  Complex factor_ = 0.0;
+  Eigen::Index column_ = -1;
+};
+
+StepMode converged_mode(const Operators& op, double dt) {
+  const Eigen::VectorXd s = mass_scaling(op, {});
+  const SchemeStiffness stiffness = SchemeStiffness::converged(op);
+  MatrixXd a(s.size(), s.size());
+  for (Eigen::Index k = 0; k < s.size(); ++k) a.col(k) = s.cwiseProduct(stiffness.apply(s[k] * Eigen::VectorXd::Unit(s.size(), k)));
+  Eigen::VectorXcd squared;
+  Eigen::MatrixXcd vectors;
+  if (op.symmetric) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (a + a.transpose()));
+    require_success(solver.info());
+    squared = solver.eigenvalues().cast<Complex>(), vectors = solver.eigenvectors().cast<Complex>();
+  } else {
+    const Eigen::EigenSolver<MatrixXd> solver(a);
+    require_success(solver.info());
+    squared = solver.eigenvalues(), vectors = solver.eigenvectors();
+  }
+  Leader leader;
+  const double rigid = 1e-10 * squared.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < squared.size(); ++k) {
+    if (std::abs(squared[k]) < rigid) continue;
+    const Complex half = 1.0 - 0.5 * dt * dt * squared[k], root = std::sqrt(half * half - 1.0);
+    leader.look(std::abs(half + root) > std::abs(half - root) ? half + root : half - root, k);
+  }
+  return {leader.factor(), scaled_to_one(s.cast<Complex>().cwiseProduct(vectors.col(leader.column())))};
+}
+
+/// State (q_n, w_n, eps_n).
+MatrixXd lagged_map(const Operators& op, const DeformationParameters& d, double dt) {
+  const MatrixXd c(op.overlap), g(op.strain_overlap), sk = MatrixXd(op.stress) * op.stiffness.asDiagonal();
+  const MatrixXd vc_inverse = MatrixXd(op.strain_stiffness).inverse();
+  const Eigen::Index n = c.cols(), m = g.cols();
+  const MatrixXd h = d.relaxation * vc_inverse * (sk * c), t = vc_inverse * (sk * g);
+  const MatrixXd r = (1.0 - d.relaxation) * MatrixXd::Identity(m, m) - d.relaxation * t;
+  MatrixXd power = MatrixXd::Identity(m, m), sum = MatrixXd::Zero(m, m);  // R^(s-1), 1 + .. + R^(s-2)
+  for (int k = 1; k < d.evaluations; ++k) sum += power, power = r * power;
+
+  const MatrixXd push = -dt * dt * op.inverse_mass.asDiagonal() * c.transpose() * op.stiffness.asDiagonal();
+  MatrixXd map = MatrixXd::Zero(2 * n + m, 2 * n + m);
+  map.block(n, 0, n, n) = push * (c - g * (sum * h));
+  map.block(n, n, n, n).setIdentity();
+  map.block(n, 2 * n, n, m) = -push * (g * power);
+  map.topRows(n) = map.middleRows(n, n);
+  map.topLeftCorner(n, n) += MatrixXd::Identity(n, n);
+  map.block(2 * n, 0, m, n) = (sum + power) * h;
+  map.block(2 * n, 2 * n, m, m) = r * power;
+  return map;
+}
+
+StepMode lagged_mode(const Operators& op, const DeformationParameters& deformation, double dt) {
+  const Eigen::EigenSolver<MatrixXd> solver(lagged_map(op, deformation, dt));
+  require_success(solver.info());
+  Leader leader;
+  for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) leader.look(solver.eigenvalues()[k], k);
+  return {leader.factor(), scaled_to_one(solver.eigenvectors().col(leader.column()).head(op.overlap.cols()))};
+}
+
+}  // namespace
+
+StepMode leading_mode(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, double time_step) {
+  const Operators op = make_operators(assembly, contact, deformation);
+  return deformation.scheme == Scheme::lagged ? lagged_mode(op, deformation, time_step) : converged_mode(op, time_step);
+}
+
+}  // namespace ddem
