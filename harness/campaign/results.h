@@ -8,8 +8,10 @@
 #include "dem/statics/moduli.h"
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
+#include "harness/campaign/size_study.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/measure/elastic_constants.h"
+#include "harness/run/measure_wave.h"
 #include "harness/run/scene_moduli.h"
 
 namespace ddem::harness {
@@ -35,6 +37,7 @@ struct StaticOutcome {
   std::string failure;  ///< empty: ok
   SceneModuli moduli;   ///< of the strip; bar from the pulled free strip
   Speeds speeds;        ///< static, directional
+  Speeds sections;      ///< static, mean over the pairs of sections at which driven pulses are recorded; random packings only
   references::PlaneModuli kinematic;  ///< closed form: exact on the lattice, an estimate on a random packing
   Speeds kinematic_speeds;
   /// Hexagonal only: homogenised unit cell, to be compared with the closed form.
@@ -45,6 +48,7 @@ struct PickedSignal {
   std::string probe;
   double x = 0.0;                     ///< m, from the source
   std::vector<double> values;         ///< m
+  double window_end = 0.0;            ///< s: what follows is no first arrival
   std::optional<double> pick_time, pick_amplitude;
   std::string pick_failure;
 };
@@ -63,9 +67,12 @@ struct WaveOutcome {
   bool diverged = false;
   long diverged_step = 0;
   int diverged_disc = 0;
-  std::optional<double> speed, speed_stddev;  ///< m/s, over its pairs of probes
+  std::optional<double> speed, speed_stddev;  ///< peak to peak, m/s, over its pairs of probes
+  std::optional<double> centroid_speed, correlation_speed;  ///< of driven pulses, m/s
+  PickedSpeeds s0;  ///< a driven bar's: what S0 makes of the static speed
   int good_pairs = 0;
   double static_speed = 0.0, kinematic_speed = 0.0;
+  double section_speed = 0.0;  ///< static, between the same sections; 0 on the lattice and for single discs
   double time_step = 0.0, critical_time_step = 0.0;
   long steps = 0;
   std::optional<double> energy_drift;
@@ -111,6 +118,7 @@ struct CampaignResults {
   std::vector<FemOutcome> fem;
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
+  std::optional<SizeStudy> sizes;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;

@@ -10,8 +10,10 @@
 #include "harness/campaign/worker_pool.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
+#include "harness/run/bar_reference.h"
 #include "harness/run/dem_run.h"
 #include "harness/run/fem_plan.h"
+#include "harness/run/section_speeds.h"
 
 namespace ddem::harness {
 namespace {
@@ -36,6 +38,17 @@ bool keeps_recording(const StripCampaign& s, const StripCase& c) {
   return c.packing == StripPacking::random && c.seed == s.seeds.front();
 }
 
+/// P and shear waves share their strip.
+Speeds static_section_speeds(const StripCampaign& s, const StripMaterial& key) {
+  const auto between = [&](StripWave wave) {
+    const Scene scene = scene_of(scene_text(s, case_of(key, wave), 1.0), "sections");
+    const ddem::Assembly a = build_assembly(scene);
+    return section_speeds(scene, a, lay_probes(scene, a));
+  };
+  const auto free = between(StripWave::bar), closed = between(StripWave::p);
+  return {free.bar, closed.s, closed.p};
+}
+
 StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, const CampaignOptions& options) {
   StaticOutcome out;
   out.key = key;
@@ -55,6 +68,7 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
       out.cell = scene_moduli(cell).isotropic();
     } else {
       out.kinematic = kinematic_moduli(scene, closed);
+      out.sections = static_section_speeds(s, key);
     }
     const auto k = references::bulk_wave_speeds(out.kinematic, out.moduli.bulk_density);
     out.kinematic_speeds = {k.bar, k.shear, k.p};
@@ -64,12 +78,13 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
   return out;
 }
 
-Recording record(const std::vector<std::vector<double>>& signals, double dt, const ProbeLayout& layout, double source,
+Recording record(const std::vector<std::vector<double>>& signals, double dt, const ProbeLayout& layout, const WaveContext& context,
                  const std::optional<WaveMeasurement>& measurement) {
   Recording r;
   r.sample_interval = dt;
   for (std::size_t p = 0; p < layout.probes.size(); ++p) {
-    PickedSignal s{layout.probes[p].name, layout.probes[p].x - source, signals[p], {}, {}, ""};
+    const double x = layout.probes[p].x;
+    PickedSignal s{layout.probes[p].name, x - context.left_end, signals[p], causal_window(context, x).end, {}, {}, ""};
     if (measurement && measurement->picks[p].pick.ok()) {
       s.pick_time = measurement->picks[p].pick.value().time;
       s.pick_amplitude = measurement->picks[p].pick.value().amplitude;
@@ -88,6 +103,16 @@ void take_speed(const WaveMeasurement& m, std::optional<double>& speed, std::opt
   } else {
     failure = m.speed.speed.error().reason;
   }
+}
+
+void take_driven_speeds(const DemRun& run, const StaticOutcome& statics, WaveOutcome& out) {
+  const PickedSpeeds picked = picked_speeds(*run.measurement);
+  out.centroid_speed = picked.centroid;
+  out.correlation_speed = picked.correlation;
+  out.section_speed = statics.sections.of(out.c.wave);
+  if (out.c.wave != StripWave::bar) return;
+  const references::FreeStrip strip{out.static_speed, run.assembly.packing.width, statics.moduli.strip.value().lateral_contraction};
+  out.s0 = picked_speeds(s0_measurement(strip, run.layout, run.context));
 }
 
 WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const StaticOutcome& statics,
@@ -121,8 +146,9 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     }
     take_speed(*run.measurement, out.speed, out.speed_stddev, out.failure);
     out.good_pairs = static_cast<int>(run.measurement->speed.good_pairs);
+    if (c.protocol == Protocol::long_wave) take_driven_speeds(run, statics, out);
     if (keeps_recording(s, c)) {
-      out.recording = record(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context.left_end,
+      out.recording = record(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context,
                              run.measurement);
     }
     if (picture != nullptr) {
@@ -257,7 +283,7 @@ void run_all_fem(const StripCampaign& s, CampaignResults& results, const Campaig
       const auto measurement = measure_wave(signals, fem[n].sample_interval, plans[n].layout, plans[n].context);
       std::optional<double> unused;
       take_speed(measurement, f.speed, unused, f.failure);
-      f.recording = record(signals, fem[n].sample_interval, plans[n].layout, plans[n].context.left_end, measurement);
+      f.recording = record(signals, fem[n].sample_interval, plans[n].layout, plans[n].context, measurement);
     }
   } catch (const std::exception& e) {
     results.fem_failure = e.what();
@@ -278,7 +304,7 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 }  // namespace
 
 std::size_t campaign_work(const StripCampaign& s, const CampaignOptions& options) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 1 : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 1 + plan_sizes(s).strips.size() : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -289,11 +315,18 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
   CampaignResults results;
   results.campaign = s;
   const auto keys = materials_of(s);
-  results.statics.resize(keys.size());
+  for (const StripMaterial& key : keys) results.statics.emplace_back().key = key;
   run_jobs(keys.size(), options.jobs, [&](std::size_t k) {
-    results.statics[k] = solve_statics(s, keys[k], options);
+    if (continuum_model(s, keys[k].model) == keys[k].model) results.statics[k] = solve_statics(s, keys[k], options);
     progress(4);
   });
+  for (std::size_t k = 0; k < keys.size(); ++k) {  // lagged and implicit strains have the same equilibrium
+    StripMaterial solved = keys[k];
+    solved.model = continuum_model(s, solved.model);
+    if (solved == keys[k]) continue;
+    results.statics[k] = *results.find(solved);
+    results.statics[k].key = keys[k];
+  }
 
   const auto cases = cases_of(s);
   const auto lattices = lattices_with_strain(s);
@@ -308,12 +341,17 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
     results.waves[k] = simulate_case(s, c, *statics, options, picture);
     progress(1);
   };
+  if (options.with_studies) results.sizes = plan_sizes(s);
   // The finite elements first: they are the longest job.
   const std::size_t fem_jobs = options.with_fem ? 1 : 0;
-  const std::size_t long_jobs = fem_jobs + 1;
+  const std::size_t size_jobs = results.sizes ? results.sizes->strips.size() : 0;
+  const std::size_t long_jobs = fem_jobs + size_jobs + 1;
   run_jobs(long_jobs + lattices.size() + cases.size(), options.jobs, [&](std::size_t job) {
     if (job < fem_jobs) {
       run_all_fem(s, results, options);
+    } else if (job < fem_jobs + size_jobs) {
+      measure_strip(s, *results.sizes, job - fem_jobs);
+      progress(1);
     } else if (job < long_jobs) {
       if (!options.with_studies) return;
       results.schemes = study_schemes(s, [&] { progress(1); });

@@ -32,6 +32,9 @@ void print_verdicts(const std::vector<reports::Verdict>& verdicts) {
   fmt::print("{}\n", reports::headcount(verdicts));
 }
 
+/// A study's case.
+bool is_study(const std::string& id) { return id.starts_with("schemes/") || id.starts_with("sizes/"); }
+
 /// Keeps the model and ratio of one case, so that the whole of what it compares is run.
 void restrict_to(StripCampaign& campaign, const std::string& id) {
   StripCampaign narrowed = campaign;
@@ -45,7 +48,7 @@ void restrict_to(StripCampaign& campaign, const std::string& id) {
       narrowed.stiffness_ratios = {ratio};
     }
   }
-  if (id.starts_with("schemes/")) {  // the study of schemes has models and ratios of its own
+  if (is_study(id)) {  // models and ratios of its own
     narrowed.models = {Model::dem};
     narrowed.stiffness_ratios = {campaign.stiffness_ratios.front()};
   }
@@ -65,7 +68,7 @@ int run(const Options& o) {
   options.jobs = o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   CampaignResults results;
   {
-    options.with_studies = o.only.empty() || o.only.starts_with("schemes/");
+    options.with_studies = o.only.empty() || is_study(o.only);
     Progress progress(campaign_work(campaign, options), "simulations");
     options.on_progress = [&](std::size_t done) { progress.advance(done); };
     results = run_campaign(campaign, options);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dem/spectra/spectra.h"
 #include "harness/io/errors.h"
@@ -122,9 +123,11 @@ const std::vector<std::vector<double>>& wave_component(const Signals& s, Wave wa
   return wave == Wave::longitudinal ? s.ux : s.uy;
 }
 
-DemRun run_scene(const Scene& scene, const RunOptions& options) {
+DemRun run_scene(const Scene& scene, const RunOptions& options) { return run_assembly(scene, build_assembly(scene), options); }
+
+DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOptions& options) {
   DemRun run;
-  run.assembly = build_assembly(scene);
+  run.assembly = std::move(assembly);
   run.layout = lay_probes(scene, run.assembly);
   run.wave = wave_of(scene);
 
@@ -141,7 +144,8 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   in.snapshots = options.snapshots;
   for (const Probe& p : run.layout.probes) in.receivers.push_back(p.receiver);
 
-  run.critical_time_step = 2.0 / largest_frequency(run.assembly, in.contact, in.held);
+  run.critical_time_step =
+      options.critical_time_step ? *options.critical_time_step : 2.0 / largest_frequency(run.assembly, in.contact, in.held);
   run.time_step = in.time_step = choose_step(scene, run.critical_time_step);
   if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
   in.steps = choose_steps(scene, run);
