@@ -163,9 +163,9 @@ reports::Figure strip_figure(const CampaignResults& r) {
   for (std::size_t k = 0; k < p.probe_x.size(); ++k) strip.probes.push_back({p.probe_x[k], p.probe_y[k], p.probe_labels[k]});
   return {.id = "strip",
           .title = "The random strip and its probes",
-          .caption = fmt::format("{} discs of the first seed at the end of a column release (bar). The wave travels from left to right; "
-                                 "velocities are measured from A1 to A2, B1 to B2 and so on.",
-                                 p.packing.size()),
+          .caption = fmt::format("{} discs of the first seed, {:.1f} µs after the release of the discs at the left edge (bar). The wave travels from left to "
+                                 "right; velocities are measured from A1 to A2, B1 to B2 and so on.",
+                                 p.packing.size(), p.time * 1e6),
           .panels = {strip}};
 }
 

@@ -54,7 +54,7 @@ reports::Figure paper_poisson_figure(const CampaignResults& r) {
                          .caption = "From bar and shear velocities of a released column, peak to peak (marks: mean over seeds; shaded: from the lowest to "
                                     "the highest). The bar is a strip with free edges, twenty discs wide: its edges are softer than its bulk, and the ratio "
                                     "from its static speed (dashed) lies below that of the material (full line, from P and shear) before any wave is sent. "
-                                    "What is left between marks and dashed line are errors of the waves."};
+                                    "What is left between marks and dashed line are errors of the waves; where a later crest of one packing is the highest, its ratio lies far off."};
   std::vector<Model> models = {r.campaign.models.front()};
   if (r.campaign.models.size() > 1) models.push_back(r.campaign.models.back());
   for (const Model model : models) {

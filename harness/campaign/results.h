@@ -101,10 +101,11 @@ struct FemOutcome {
   Recording recording;
 };
 
-/// The random strip of the first seed, for its picture: positions, the displacement of a long wave at the end of the
-/// run, and the probes of the paper's protocol.
+/// The random strip of the first seed, for its picture: positions, the displacement half-way through a column release
+/// (bar), and the probes of the paper's protocol.
 struct StripPicture {
   Packing packing;
+  double time = 0.0;  ///< s
   std::vector<double> displacement;
   std::vector<double> probe_x, probe_y;
   std::vector<std::string> probe_labels;

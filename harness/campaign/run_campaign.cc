@@ -132,6 +132,7 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     RunOptions run_options;
     run_options.expected_speed = out.static_speed;
     run_options.warn = false;
+    run_options.snapshots = picture != nullptr ? 2 : 0;  // half-way, where the wave is under way, and at the end
     const DemRun run = run_scene(scene, run_options);
     out.time_step = run.time_step;
     out.critical_time_step = run.critical_time_step;
@@ -153,7 +154,8 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     }
     if (picture != nullptr) {
       picture->packing = run.assembly.packing;
-      picture->displacement = c.wave == StripWave::shear ? run.result.final_state.uy : run.result.final_state.ux;
+      picture->time = run.result.snapshots.front().time;
+      picture->displacement = run.result.snapshots.front().state.ux;
     }
   } catch (const std::exception& e) {
     out.failure = e.what();

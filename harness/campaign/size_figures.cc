@@ -29,7 +29,7 @@ std::vector<double> abscissa(const std::vector<SizeMean>& means) {
 }
 
 reports::Plot bias_panel(const SizeStudy& study) {
-  reports::Plot plot{.title = "static bar speed of the free strip, over its bulk's",
+  reports::Plot plot{.title = "free strip over bulk, static bar speed",
                      .x = {.label = "mean radius / width"},
                      .y = {.label = "bias, %"}};
   for (std::size_t k = 0; k < study.stiffness_ratios.size(); ++k) {
@@ -38,7 +38,7 @@ reports::Plot bias_panel(const SizeStudy& study) {
     const reports::Color color = kRatioColors[k % std::size(kRatioColors)];
     plot.series.push_back(marks(fmt::format("random, kₜ/kₙ = {:g}", ratio), random, color));
     const PowerLaw law = power_law(random);
-    reports::Series fit{.name = fmt::format("random, kₜ/kₙ = {:g}: (r/w)^{:.2f}", ratio, law.power), .x = abscissa(random), .color = color};
+    reports::Series fit{.name = fmt::format("∝ (radius/width)^{1:.2f}, kₜ/kₙ = {0:g}", ratio, law.power), .x = abscissa(random), .color = color};
     for (const double x : fit.x) fit.y.push_back(x > 0.0 ? 100.0 * law.slope * std::pow(x, law.power) : 0.0);
     plot.series.push_back(fit);
     if (ratio == 0.0) continue;  // the lattice has none
@@ -53,8 +53,10 @@ reports::Plot bias_panel(const SizeStudy& study) {
 }
 
 reports::Plot wave_panel(const SizeStudy& study, StripPacking packing) {
+  double coarsest = 0.0;
+  for (const SizedStrip& s : study.strips) coarsest = std::max(coarsest, s.radius_over_width);
   reports::Plot plot{.title = fmt::format("waves over statics, {}, kₜ/kₙ = {:g}", packing == StripPacking::random ? "random" : "lattice", study.stiffness_ratios.back()),
-                     .x = {.label = "mean radius / width"},
+                     .x = {.label = "mean radius / width", .limits = reports::Limits{0.0, 1.08 * coarsest}},
                      .y = {.label = "error of the speed, %"}};
   plot.series.push_back(marks("shear", study.mean_error(packing, StripWave::shear), reports::Color::purple));
   plot.series.push_back(marks("P", study.mean_error(packing, StripWave::p), reports::Color::sky));
@@ -72,14 +74,14 @@ reports::Figure size_figure(const SizeStudy& study) {
           .caption = "The same strip out of 4 and 16 times as many discs; bars: scatter of single packings. First: free edges soften the bar, in "
                      "proportion to radius over width, whether it is measured in waves or statically. It is no property of the material, and the "
                      "largest error of a Poisson's ratio from bar and shear velocities. Then: speeds of driven pulses, by centroid, against the "
-                     "static speeds between the same sections: their mean does not depend on the size, their scatter shrinks.",
+                     "static speeds between the same sections (bar: of the pulled strip): their mean does not depend on the size, their scatter shrinks.",
           .panels = {bias_panel(study), wave_panel(study, StripPacking::random), wave_panel(study, StripPacking::hexagonal)}};
 }
 
 reports::Table size_table(const SizeStudy& study) {
   reports::Table t;
   t.caption = "Mean and scatter of single packings, %. Bias: static bar speed of the free strip over its bulk's. Waves: driven pulse, by centroid, "
-              "over the static speed between the same sections (bar: times what S0 makes of it).";
+              "over the static speed between the same sections (bar: of the pulled strip, times what S0 makes of it).";
   t.columns = {{"packing"}, {"discs"}, {"strips", "", 3}, {"cells", "", 3}, {"radius/width", "", 3}};
   for (const double ratio : study.stiffness_ratios) {
     t.columns.push_back({fmt::format("bias, kₜ/kₙ = {:g}", ratio), "%", 3});

@@ -102,8 +102,8 @@ void send_waves(const StripCampaign& s, SizedStrip& strip, double stiffness_rati
     strip.p.reference = sections.p;
   });
   send(StripWave::p, strips.directional.p, strip.p, [](const Scene&, const DemRun&) {});
-  send(StripWave::bar, bar_speed, strip.bar, [&](const Scene& scene, const DemRun& run) {
-    strip.bar.reference = lattice ? bar_speed : section_speeds(scene, run.assembly, run.layout).bar;
+  send(StripWave::bar, bar_speed, strip.bar, [&](const Scene&, const DemRun& run) {
+    strip.bar.reference = bar_speed;
     const PickedSpeeds s0 = picked_speeds(s0_measurement({bar_speed, run.assembly.packing.width, strips.tension.lateral_contraction}, run.layout, run.context));
     const auto over = [&](std::optional<double> speed) { return speed ? std::optional(*speed / bar_speed) : std::nullopt; };
     strip.bar.s0 = {over(s0.peak), over(s0.centroid), over(s0.correlation)};

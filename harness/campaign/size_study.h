@@ -22,7 +22,7 @@ struct WidthBias {
 /// A driven long pulse, measured in three ways.
 struct SizedWave {
   PickedSpeeds measured;   ///< m/s
-  double reference = 0.0;  ///< static, between the same sections (a lattice: closed form; its bar: the pulled strip), m/s
+  double reference = 0.0;  ///< static, m/s: between the same sections (a lattice: closed form); of the bar the pulled strip's
   PickedSpeeds s0;         ///< bar: what S0 makes of the strip's static speed, over that speed; else empty
 
   /// By centroid, over the reference (of the bar: times what S0 makes of it), less one; NaN where not measured.

@@ -97,15 +97,18 @@ void add_failure(Verdict& v, const WaveOutcome& w) {
 
 Verdict lattice_verdict(const CampaignResults& r, const StaticOutcome& s) {
   Verdict v{.case_id = case_id("long-wave/hexagonal", s.key), .title = title_of(s.key, "Driven long pulse in the lattice")};
-  std::optional<double> measured[3];
+  std::optional<double> measured[3], shear_centroid;
   for (const StripWave wave : {StripWave::bar, StripWave::shear, StripWave::p}) {
     const WaveOutcome* w = r.find(wave_case(s.key, Protocol::long_wave, wave));
     if (w == nullptr) continue;
     add_failure(v, *w);
     measured[static_cast<int>(wave)] = w->speed;
+    if (wave == StripWave::shear) shear_centroid = w->centroid_speed;
   }
   const char* closed = "closed form of the infinite lattice; lattice dispersion and the pick of an 8 mm pulse cost up to 0.1 %, twice that is allowed";
   v.criteria = {judge("shear velocity", measured[1], relative(s.kinematic_speeds.shear, 0.002, 0.002), "m/s", closed),
+                judge("shear velocity by centroid", shear_centroid, relative(s.kinematic_speeds.shear, 2e-4, 2e-4), "m/s",
+                      "closed form; the centroid of a pulse travels at the speed of infinitely long waves, but for the tail that its window cuts off"),
                 judge("P velocity", measured[2], relative(s.kinematic_speeds.p, 0.002, 0.002), "m/s", closed),
                 judge("bar velocity", measured[0], relative(s.speeds.bar, 0.04, 0.02), "m/s",
                       "static speed of the very strip; S0 dispersion makes an 8 mm pulse in a 2 mm strip up to 2 % slow (so does the continuum's), twice that is allowed"),
@@ -161,11 +164,9 @@ void judge_bar_wave(const CampaignResults& r, const StripMaterial& key, Verdict&
   speed_error(r, key, Protocol::long_wave, StripWave::bar, seeds, v);
   for (const Picker& by : kPickers) {
     const auto error = [&](const auto& of) { return mean_over_seeds(r, wave_case(key, Protocol::long_wave, StripWave::bar), seeds, of); };
-    if (by.speed != &WaveOutcome::speed) {
-      v.criteria.push_back(judge(fmt::format("bar velocity by {} over static of the strip", by.name),
-                                 error([&](const WaveOutcome& w) { return relative_error(w.*by.speed, w.static_speed); }), {0.0, -dispersed, dispersed}, "",
-                                 "the very free strip, pulled; S0 dispersion of an 8 mm pulse in a 2 mm strip costs up to 1.5 % (its peak up to 2.3 %)"));
-    }
+    v.criteria.push_back(judge(fmt::format("bar velocity by {} over static of the strip", by.name),
+                               error([&](const WaveOutcome& w) { return relative_error(w.*by.speed, w.static_speed); }), {0.0, -dispersed, dispersed}, "",
+                               "the very free strip, pulled; S0 dispersion of an 8 mm pulse in a 2 mm strip makes it up to 2 % slow"));
     v.criteria.push_back(judge(fmt::format("bar velocity by {} over that of S0", by.name),
                                error([&](const WaveOutcome& w) { return relative_error(w.*by.speed, w.s0.*by.s0); }), {0.0, -corrected, corrected}, "",
                                "what S0 of a strip with the static speed makes of the same pulse; free strips scatter by 0.6 to 1 % a packing"));
@@ -284,6 +285,12 @@ void add_size_failures(const SizeStudy& study, Verdict& v) {
   }
 }
 
+/// Of the sizes that were jammed as a whole.
+std::size_t least_strips(const SizeStudy& study) {
+  const auto means = study.mean_bias(StripPacking::random, 0);
+  return means.empty() ? 1 : means.front().strips;
+}
+
 /// The bias of the free strip vanishes as radius/width.
 Verdict size_bias_verdict(const SizeStudy& study) {
   Verdict v{.case_id = "sizes/bias", .title = "Static bar speed of the free strip against its bulk's, over the strip's width in discs"};
@@ -295,9 +302,9 @@ Verdict size_bias_verdict(const SizeStudy& study) {
       v.criteria.push_back(judge(fmt::format("lattice of {:.0f} rows, k_t/k_n = {:g}", rows, ratio), m.value.value, absolute(hexagonal_width_bias(ratio, rows), 1e-5), "",
                                  "closed form: the edges' rows share one layer of bonds less; the grips reach as far as the sections with 1e-6"));
     }
-    v.criteria.push_back(judge(fmt::format("power of radius/width, random, k_t/k_n = {:g}", ratio), power_law(study.mean_bias(StripPacking::random, k)).power, absolute(1.0, 0.25), "",
-                               "a layer of the edge, some radii thick, is softer: bias = -a r/w - (a r/w)^2 .., a tenth at the coarsest strip; means of six packings scatter by "
-                               "up to a quarter of it at the finest, ln 1.25/ln 4 = 0.16 in the power"));
+    v.criteria.push_back(judge(fmt::format("power of radius/width, random, k_t/k_n = {:g}", ratio), power_law(study.mean_bias(StripPacking::random, k)).power, absolute(1.0, widened(0.25, least_strips(study))), "",
+                               "the softer layer along an edge is some radii thick whatever the width; means are known to 6 % at the coarsest size and 14 % at the finest, the "
+                               "power to 0.11: two of that, and 0.03 for the next order of radius/width"));
   }
   conclude_study(v);
   return v;

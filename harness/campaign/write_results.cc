@@ -190,7 +190,7 @@ void write_sizes(Hdf5Group& parent, const SizeStudy& study) {
       set_finite(h, "wave_speed", w.measured.peak);
       set_finite(h, "wave_speed_by_centroid", w.measured.centroid);
       set_finite(h, "wave_speed_by_correlation", w.measured.correlation);
-      set_finite(h, "static_speed_between_sections", w.reference);
+      set_finite(h, "static_speed", w.reference);
       set_finite(h, "s0_over_static", w.s0.peak);
       set_finite(h, "s0_over_static_by_centroid", w.s0.centroid);
       set_finite(h, "s0_over_static_by_correlation", w.s0.correlation);

@@ -10,6 +10,7 @@
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
+#include "harness/model/packing_report.h"
 #include "harness/run/scene_moduli.h"
 #include "harness/scene/place.h"
 
@@ -150,7 +151,10 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
   if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
   in.steps = choose_steps(scene, run);
   check_signal_size(scene, run, static_cast<double>(in.steps));
-  if (options.warn) warn_of_instability(scene, run);
+  if (options.warn) {
+    if (const auto crystal = crystal_warning(scene)) run.warnings.push_back(*crystal);
+    warn_of_instability(scene, run);
+  }
 
   run.result = simulate(run.assembly, in);
   if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {

@@ -27,12 +27,12 @@ struct DemRun {
 struct RunOptions {
   /// The static speed where the caller knows it (m/s): narrows the windows and the run time. Else the kinematic estimate.
   std::optional<double> expected_speed;
-  /// Or a smaller one (s), where the caller knows it: finding it takes as long as some hundred steps.
-  std::optional<double> critical_time_step = std::nullopt;
   std::function<bool(double)> on_progress;
   int energy_samples = 8;   ///< of the energies over time: enough for their drift, and an audit costs as much as ten steps
   int snapshots = 0;        ///< of all discs, over the run
-  bool warn = true;         ///< of instability that theory predicts; costs more than a short run
+  bool warn = true;         ///< of crystallised packings, and of instability that theory predicts; costs more than a short run
+  /// Of the assembly, or a smaller one (s), where the caller knows it: finding it takes as long as some hundred steps.
+  std::optional<double> critical_time_step = std::nullopt;
 };
 
 /// What happened, for people: "the run diverged", and what to do about it.

@@ -46,7 +46,7 @@ struct WaveMeasurement {
 
 /// The mean speeds of the three ways, m/s; empty where there is none.
 struct PickedSpeeds {
-  std::optional<double> peak, centroid, correlation;
+  std::optional<double> peak = {}, centroid = {}, correlation = {};
 };
 PickedSpeeds picked_speeds(const WaveMeasurement& measurement);
 
