@@ -40,6 +40,8 @@ struct StaticOutcome {
   Speeds sections;      ///< static, mean over the pairs of sections at which driven pulses are recorded; random packings only
   references::PlaneModuli kinematic;  ///< closed form: exact on the lattice, an estimate on a random packing
   Speeds kinematic_speeds;
+  /// s; of rigid discs, edges closed above and below and no disc held: that of each wave's strip is as long or a little longer.
+  double critical_time_step = 0.0;
   /// Hexagonal only: homogenised unit cell, to be compared with the closed form.
   std::optional<IsotropicModuli> cell;
 };

@@ -39,14 +39,14 @@ bool keeps_recording(const StripCampaign& s, const StripCase& c) {
 }
 
 /// P and shear waves share their strip.
-Speeds static_section_speeds(const StripCampaign& s, const StripMaterial& key) {
-  const auto between = [&](StripWave wave) {
+Speeds static_section_speeds(const StripCampaign& s, const StripMaterial& key, const ddem::Assembly& closed) {
+  const auto between = [&](StripWave wave, const ddem::Assembly* assembly) {
     const Scene scene = scene_of(scene_text(s, case_of(key, wave), 1.0), "sections");
-    const ddem::Assembly a = build_assembly(scene);
+    const ddem::Assembly& a = assembly != nullptr ? *assembly : build_assembly(scene);
     return section_speeds(scene, a, lay_probes(scene, a));
   };
-  const auto free = between(StripWave::bar), closed = between(StripWave::p);
-  return {free.bar, closed.s, closed.p};
+  const auto free = between(StripWave::bar, nullptr), periodic = between(StripWave::p, &closed);
+  return {free.bar, periodic.s, periodic.p};
 }
 
 StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, const CampaignOptions& options) {
@@ -58,6 +58,7 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
     const DirectionalSpeeds speeds = out.moduli.speeds().value();
     out.speeds = {speeds.bar, speeds.s, speeds.p};
     const ddem::Assembly closed = build_laterally_closed(scene).value();
+    out.critical_time_step = 2.0 / largest_frequency(closed, contact_parameters(scene), {});
     // A lattice's cell has all its bonds; a strip's ends have not.
     if (key.packing == StripPacking::hexagonal) {
       StripCampaign small = s;
@@ -68,7 +69,7 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
       out.cell = scene_moduli(cell).isotropic();
     } else {
       out.kinematic = kinematic_moduli(scene, closed);
-      out.sections = static_section_speeds(s, key);
+      out.sections = static_section_speeds(s, key, closed);
     }
     const auto k = references::bulk_wave_speeds(out.kinematic, out.moduli.bulk_density);
     out.kinematic_speeds = {k.bar, k.shear, k.p};
@@ -132,6 +133,7 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     RunOptions run_options;
     run_options.expected_speed = out.static_speed;
     run_options.warn = false;
+    if (!options.disturb_scene) run_options.critical_time_step = statics.critical_time_step;
     run_options.snapshots = picture != nullptr ? 2 : 0;  // half-way, where the wave is under way, and at the end
     const DemRun run = run_scene(scene, run_options);
     out.time_step = run.time_step;
