@@ -346,6 +346,7 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
     progress(1);
   };
   if (options.with_studies) results.sizes = plan_sizes(s);
+  if (results.sizes && results.sizes->strips.empty()) results.sizes.reset();
   // The finite elements first: they are the longest job.
   const std::size_t fem_jobs = options.with_fem ? 1 : 0;
   const std::size_t size_jobs = results.sizes ? results.sizes->strips.size() : 0;

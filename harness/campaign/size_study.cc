@@ -22,11 +22,22 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Jamming as a whole takes seconds at 16 times the discs: those strips are 16 copies, side by side, of a cell as wide as
-// the strip with as many discs as the coarsest strip has. A cell is 1 mm long: what repeats has stop bands at waves of
-// 2 mm and less, and the pulse has none below 4 mm.
+// Larger strips are left out: their statics alone take minutes.
+constexpr std::int64_t kMostDiscs = 20000;
+
+// Jamming as a whole takes seconds at 16 times the discs: those strips are up to 16 copies, side by side, of a cell as
+// wide as the strip. Of the default campaign a cell has as many discs as the coarsest strip and is 1 mm long: what repeats
+// has stop bands at waves of 2 mm and less, and the pulse has none below 4 mm.
 constexpr std::int64_t kTiledRefinement = 4;
 constexpr std::size_t kTiledSeeds = 3;
+
+/// As many as leave a cell at least half as long as it is wide, a power of two.
+int cells_of(const StripCampaign& s, std::int64_t refinement) {
+  if (refinement < kTiledRefinement) return 1;
+  int cells = static_cast<int>(refinement * refinement);
+  while (cells > 1 && s.length / cells < 0.5 * s.width) cells /= 2;
+  return cells;
+}
 
 /// The campaign's strip with smaller discs.
 StripCampaign refined(StripCampaign s, std::int64_t refinement) {
@@ -159,11 +170,11 @@ double hexagonal_width_bias(double stiffness_ratio, double rows) {
 SizeStudy plan_sizes(const StripCampaign& s) {
   SizeStudy study;
   for (const std::int64_t refinement : {kTiledRefinement, std::int64_t{2}, std::int64_t{1}}) {
-    const bool tiled = refinement == kTiledRefinement;
+    if (std::max(s.discs, s.columns * s.rows) * refinement * refinement > kMostDiscs) continue;
     study.strips.push_back({.packing = StripPacking::hexagonal, .refinement = refinement});
-    const std::size_t seeds = tiled ? std::min(kTiledSeeds, s.seeds.size()) : s.seeds.size();
+    const std::size_t seeds = refinement == kTiledRefinement ? std::min(kTiledSeeds, s.seeds.size()) : s.seeds.size();
     for (std::size_t k = 0; k < seeds; ++k) {
-      study.strips.push_back({.packing = StripPacking::random, .refinement = refinement, .seed = s.seeds[k], .cells = tiled ? static_cast<int>(refinement * refinement) : 1});
+      study.strips.push_back({.packing = StripPacking::random, .refinement = refinement, .seed = s.seeds[k], .cells = cells_of(s, refinement)});
     }
   }
   return study;

@@ -60,7 +60,8 @@ struct SizeStudy {
   std::vector<SizeMean> mean_error(StripPacking packing, StripWave wave) const;
 };
 
-/// Bias = slope (radius/width)^power through the means (least squares of logarithms); NaN where one is not negative.
+/// Bias = slope (radius/width)^power through the means (least squares of logarithms); NaN where one is not negative, and of
+/// fewer than two.
 struct PowerLaw {
   double slope = 0.0, power = 0.0;
 };
@@ -70,7 +71,7 @@ PowerLaw power_law(const std::vector<SizeMean>& means);
 /// strip, and only the bonds between its n rows carry shear, EA = 2 r k_n (n + (n - 1) b), b = 2 lambda/(3 + lambda).
 double hexagonal_width_bias(double stiffness_ratio, double rows);
 
-/// The strips of the study, nothing measured yet, the costliest first.
+/// The strips of the study, of up to 20000 discs, nothing measured yet, the costliest first.
 SizeStudy plan_sizes(const StripCampaign& campaign);
 /// Measures study.strips[k]. Strips may be measured at the same time.
 void measure_strip(const StripCampaign& campaign, SizeStudy& study, std::size_t k);

@@ -205,9 +205,9 @@ Verdict paper_verdict(const CampaignResults& r, const StripMaterial& key) {
   const PaperPoisson steps = paper_poisson(r, key.model, key.stiffness_ratio);
   const double softening = 2.0 * (1.0 + steps.bulk) * 0.8 * steps.radius_over_width;
   v.criteria.push_back(judge("Poisson's ratio of the free strip and shear less that of the bulk, static", steps.strip - steps.bulk_bar,
-                             {-softening, -1.5 * softening, -0.5 * softening}, "",
-                             "free edges slow the bar by 0.8 radius/width (see the study of sizes: 0.75 to 0.9), and Poisson's ratio loses 2 (1 + nu) times that; "
-                             "packings and models differ by up to a half"));
+                             {-softening, -3.0 * softening, -0.5 * softening}, "",
+                             "free edges slow the bar by 0.8 radius/width (see the study of sizes: 0.75 to 0.9; up to 1.8 at coordination 4.75), and Poisson's ratio "
+                             "loses 2 (1 + nu) times that"));
   conclude(v);
   return v;
 }
@@ -302,7 +302,9 @@ Verdict size_bias_verdict(const SizeStudy& study) {
       v.criteria.push_back(judge(fmt::format("lattice of {:.0f} rows, k_t/k_n = {:g}", rows, ratio), m.value.value, absolute(hexagonal_width_bias(ratio, rows), 1e-5), "",
                                  "closed form: the edges' rows share one layer of bonds less; the grips reach as far as the sections with 1e-6"));
     }
-    v.criteria.push_back(judge(fmt::format("power of radius/width, random, k_t/k_n = {:g}", ratio), power_law(study.mean_bias(StripPacking::random, k)).power, absolute(1.0, widened(0.25, least_strips(study))), "",
+    const auto random = study.mean_bias(StripPacking::random, k);
+    if (random.size() < 2 && v.reason.empty()) continue;  // a campaign of strips too large to be refined
+    v.criteria.push_back(judge(fmt::format("power of radius/width, random, k_t/k_n = {:g}", ratio), power_law(random).power, absolute(1.0, widened(0.25, least_strips(study))), "",
                                "the softer layer along an edge is some radii thick whatever the width; means are known to 6 % at the coarsest size and 14 % at the finest, the "
                                "power to 0.11: two of that, and 0.03 for the next order of radius/width"));
   }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -111,6 +112,26 @@ TEST(SizeStudy, MeasuresItsStrips) {
     EXPECT_NEAR(strip.bar.error(), 0.0, 0.04);
   }
   EXPECT_EQ(random, 2u);
+}
+
+/// Strips beyond 20000 discs are left out, and cells stay at least half as long as wide.
+TEST(SizeStudy, PlansWhatCanBeDone) {
+  StripCampaign s;
+  const auto count = [&](std::int64_t refinement) {
+    const SizeStudy plan = plan_sizes(s);
+    return std::count_if(plan.strips.begin(), plan.strips.end(), [&](const SizedStrip& strip) { return strip.refinement == refinement; });
+  };
+  EXPECT_EQ(count(1), 7);  // six seeds and the lattice
+  EXPECT_EQ(count(2), 7);
+  EXPECT_EQ(count(4), 4);
+  s.length = 4e-3;
+  EXPECT_EQ(plan_sizes(s).strips[1].refinement, 4);
+  EXPECT_EQ(plan_sizes(s).strips[1].cells, 4);
+  s.discs = 5000;
+  EXPECT_EQ(count(4), 0);
+  EXPECT_EQ(count(2), 7);
+  s.discs = 30000;
+  EXPECT_TRUE(plan_sizes(s).strips.empty());
 }
 
 TEST(SizeStudy, SaysWhyAStripFailed) {
