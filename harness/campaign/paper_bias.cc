@@ -52,7 +52,7 @@ reports::Figure paper_poisson_figure(const CampaignResults& r) {
   reports::Figure figure{.id = "paper-poisson",
                          .title = "Poisson's ratio as the paper's protocol reads it",
                          .caption = "From bar and shear velocities of a released column, peak to peak (marks: mean over seeds; shaded: from the lowest to "
-                                    "the highest). The bar is a strip with free edges, twenty discs wide: its edges are softer than its bulk, and the ratio "
+                                    "the highest). The bar is a strip with free edges, few discs wide: its edges are softer than its bulk, and the ratio "
                                     "from its static speed (dashed) lies below that of the material (full line, from P and shear) before any wave is sent. "
                                     "What is left between marks and dashed line are errors of the waves; where a later crest of one packing is the highest, its ratio lies far off."};
   std::vector<Model> models = {r.campaign.models.front()};
@@ -82,7 +82,7 @@ reports::Table paper_poisson_table(const CampaignResults& r) {
   reports::Table t;
   t.caption = "From the material's Poisson's ratio to what the paper's protocol reads: static values, what each step adds, and the seeds that gave both "
               "velocities (the wave's error is a mean over these).";
-  t.columns = {{"model"}, {"kₜ/kₙ", "", 3}, {"ν of the material", "", 3}, {"anisotropy", "", 2}, {"free edges", "", 2}, {"waves", "", 2}, {"seeds", "", 2}, {"ν by the paper's protocol", "", 3}};
+  t.columns = {{"model"}, {"kₜ/kₙ", "", 3}, {"ν of the material", "", 3}, {"anisotropy", "", 2}, {"free edges", "", 2}, {"waves", "", 2}, {"seeds", "", 2}, {"ν read", "", 3}};
   for (const Model model : r.campaign.models) {
     for (const double ratio : r.campaign.stiffness_ratios) {
       const PaperPoisson p = paper_poisson(r, model, ratio);

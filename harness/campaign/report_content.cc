@@ -125,9 +125,9 @@ reports::Section schemes(const CampaignResults& r) {
 
 reports::Section sizes(const CampaignResults& r) {
   return {.heading = "Smaller discs",
-          .paragraphs = {"The strip of the paper is twenty discs wide. The same strip out of smaller discs shows which errors are those of its width in discs. "
+          .paragraphs = {"The strip of the paper is nine discs wide. The same strip out of smaller discs shows which errors are those of its width in discs. "
                          "The largest is static: the free edges soften the bar, in proportion to radius over width, so that its speed is not that of the "
-                         "material. Strips of 16 times as many discs repeat one jammed cell, as wide as the strip and a sixteenth as long."},
+                         "material. Strips of 16 times as many discs repeat one jammed cell, as wide as the strip; the table says how many copies."},
           .figures = {size_figure(*r.sizes)},
           .tables = {size_table(*r.sizes)}};
 }
@@ -137,11 +137,11 @@ reports::Section paper(const CampaignResults& r) {
           .paragraphs = {"The discs of the left edge are displaced and let go; velocities are measured peak to peak between single discs, bar between free "
                          "edges, shear between periodic ones, and Poisson's ratio follows from c_bar² = 2 (1 + ν) c_shear². Three things come between that number "
                          "and the material's.",
-                         "First the free edges: bonds are missing there, the layer along them is softer, and a strip of twenty discs' width is slower than its "
-                         "own bulk by 4 to 5 %. No measuring can take that out, since it is a property of the strip; it lowers ν by 2 (1 + ν) times as much, 0.08 to "
-                         "0.13, and it vanishes in proportion to radius over width. Second the waves: a released column sends waves as short as the discs, "
+                         "First the free edges: bonds are missing there, the layer along them is softer, and a strip few discs wide is slower than its "
+                         "own bulk: by 4 to 5 % at nine discs and a coordination of 5.8. No measuring can take that out, since it is a property of the strip; it lowers ν by "
+                         "2 (1 + ν) times as much, 0.08 to 0.13 there, and it vanishes in proportion to radius over width. Second the waves: a released column sends waves as short as the discs, "
                          "which the packing scatters and delays, and the bar disperses (S0), at fixed width whatever the size of the discs; what the peak of "
-                         "a single disc shows is off by 5 % either way, from packing to packing. Third the anisotropy of a single packing, for which bar and shear along one "
+                         "a single disc shows is off by some per cent either way, from packing to packing. Third the anisotropy of a single packing, for which bar and shear along one "
                          "direction do not belong to one ν.",
                          "P and shear velocities between periodic edges have none of the first error, and driven long pulses, averaged over sections, little of the second: "
                          "hence the headline is measured with them. The first table compares velocities with the static ones of the same strips, the second "
