@@ -37,7 +37,8 @@ table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabu
 caption { text-align: left; font-weight: 600; padding: .3rem 0; }
 th, td { padding: .3rem .8rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }
 thead th { border-bottom: 2px solid #b8bfc7; white-space: nowrap; }
-tbody th { font-weight: 500; }
+tbody th { font-weight: 500; white-space: nowrap; }
+.case tbody th { white-space: normal; }
 .case th, .case td { padding-left: .5rem; padding-right: .5rem; }
 .n { text-align: right; white-space: nowrap; }
 td.derivation { min-width: 12rem; color: var(--soft); }

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ddem::harness {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+constexpr std::size_t kShownPairs = 2;  // A and B, as in the paper
 
 reports::Color color_of(Model model) {
   switch (model) {
@@ -33,18 +36,32 @@ std::vector<double> times(const Recording& recording, std::size_t samples) {
   return t;
 }
 
+/// NaN without values, or where one is not a number.
+std::pair<double, double> range_of(const std::vector<double>& values) {
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (const double v : values) {
+    if (std::isnan(v)) return {kNone, kNone};
+    lowest = std::min(lowest, v);
+    highest = std::max(highest, v);
+  }
+  return values.empty() ? std::pair{kNone, kNone} : std::pair{lowest, highest};
+}
+
 reports::Plot velocity_panel(const CampaignResults& r, StripWave wave) {
   reports::Plot plot{.title = fmt::format("{} wave", name(wave)), .x = {.label = "kₜ/kₙ"}, .y = {.label = "velocity", .unit = "m/s"}};
   for (const Model model : r.campaign.models) {
     reports::Series measured{.name = name(model), .kind = reports::SeriesKind::markers, .color = color_of(model)};
     reports::Series statics{.name = name(model) + ", static", .color = color_of(model)};
+    reports::Band seeds{.name = name(model), .color = color_of(model)};
     reports::Series kinematic{.name = name(model) + ", kinematic", .color = color_of(model), .dash = reports::Dash::dotted};
     for (const double ratio : r.campaign.stiffness_ratios) {
       const SpeedPoint s = random_speed(r, model, ratio, Protocol::long_wave, wave);
-      measured.x.push_back(ratio), measured.y.push_back(s.measured.value), measured.error.push_back(s.measured.stddev);
+      measured.x.push_back(ratio), measured.y.push_back(s.measured.value);
+      seeds.x.push_back(ratio), seeds.lower.push_back(s.lowest), seeds.upper.push_back(s.highest);
       statics.x.push_back(ratio), statics.y.push_back(s.statics);
       kinematic.x.push_back(ratio), kinematic.y.push_back(s.kinematic);
     }
+    plot.bands.push_back(seeds);
     plot.series.push_back(measured);
     plot.series.push_back(statics);
     plot.series.push_back(kinematic);
@@ -70,7 +87,8 @@ SpeedPoint random_speed(const CampaignResults& r, Model model, double ratio, Pro
     kinematic.push_back(w != nullptr ? w->kinematic_speed : kNone);
   }
   const Uncertain mean = measured.empty() ? Uncertain{kNone, kNone} : sample_statistics(measured);
-  return {mean, sample_statistics(statics).value, sample_statistics(kinematic).value};
+  const auto [lowest, highest] = range_of(measured);
+  return {mean, lowest, highest, sample_statistics(statics).value, sample_statistics(kinematic).value};
 }
 
 PoissonCurve poisson_curve(const CampaignResults& r, Model model) {
@@ -88,7 +106,9 @@ PoissonCurve poisson_curve(const CampaignResults& r, Model model) {
     const Uncertain m = sample_statistics(measured);
     curve.ratio.push_back(ratio);
     curve.mean.push_back(m.value);
-    curve.stddev.push_back(m.stddev);
+    const auto [lowest, highest] = range_of(measured);
+    curve.lowest.push_back(lowest);
+    curve.highest.push_back(highest);
     curve.statics.push_back(sample_statistics(statics).value);
   }
   return curve;
@@ -99,7 +119,8 @@ reports::Figure poisson_figure(const CampaignResults& r) {
   reports::Plot lattice{.title = "hexagonal lattice", .x = {.label = "kₜ/kₙ"}, .y = {.label = "Poisson's ratio"}};
   for (const Model model : r.campaign.models) {
     const PoissonCurve c = poisson_curve(r, model);
-    random.series.push_back({.name = name(model), .kind = reports::SeriesKind::markers, .x = c.ratio, .y = c.mean, .error = c.stddev, .color = color_of(model)});
+    random.series.push_back({.name = name(model), .kind = reports::SeriesKind::markers, .x = c.ratio, .y = c.mean, .color = color_of(model)});
+    random.bands.push_back({.name = name(model), .x = c.ratio, .lower = c.lowest, .upper = c.highest, .color = color_of(model)});
     random.series.push_back({.name = name(model) + ", reference", .x = c.ratio, .y = c.statics, .color = color_of(model)});
     reports::Series measured{.name = name(model), .kind = reports::SeriesKind::markers, .color = color_of(model)};
     reports::Series closed{.name = name(model) + ", reference", .color = color_of(model)};
@@ -121,7 +142,7 @@ reports::Figure poisson_figure(const CampaignResults& r) {
   }
   return {.id = "poisson-ratio",
           .title = "Poisson's ratio over kₜ/kₙ",
-          .caption = "Marks: from P and shear velocities (bars: scatter over seeds). Lines: static moduli of the same packings (left), closed "
+          .caption = "Marks: from P and shear velocities (shaded: from the lowest seed to the highest). Lines: static moduli of the same packings (left), closed "
                      "form (right). Correcting both overlaps (F) draws ν towards the discs' own νₚ at every kₜ/kₙ; the published correction of the "
                      "normal overlap alone (N) moves it less. Dense DEM cannot exceed 1/3; packings with fewer bonds a disc do.",
           .panels = {random, lattice}};
@@ -130,7 +151,7 @@ reports::Figure poisson_figure(const CampaignResults& r) {
 reports::Figure velocity_figure(const CampaignResults& r) {
   return {.id = "velocities",
           .title = "Wave velocities over kₜ/kₙ, random packings",
-          .caption = "Marks: measured on driven pulses (bars: scatter over seeds). Full lines: static directional speeds of the same packings, for "
+          .caption = "Marks: measured on driven pulses (shaded: from the lowest seed to the highest). Full lines: static directional speeds of the same packings, for "
                      "the bar of the very strip with its free edges. Dotted: kinematic estimate, which no packing exceeds.",
           .panels = {velocity_panel(r, StripWave::bar), velocity_panel(r, StripWave::shear), velocity_panel(r, StripWave::p)}};
 }
@@ -142,26 +163,27 @@ reports::Figure strip_figure(const CampaignResults& r) {
   for (std::size_t k = 0; k < p.probe_x.size(); ++k) strip.probes.push_back({p.probe_x[k], p.probe_y[k], p.probe_labels[k]});
   return {.id = "strip",
           .title = "The random strip and its probes",
-          .caption = fmt::format("{} discs of the first seed at the end of a column release (bar). The wave travels from left to right; "
-                                 "velocities are measured from A1 to A2, B1 to B2 and so on.",
-                                 p.packing.size()),
+          .caption = fmt::format("{} discs of the first seed, {:.1f} µs after the release of the discs at the left edge (bar). The wave travels from left to "
+                                 "right; velocities are measured from A1 to A2, B1 to B2 and so on.",
+                                 p.packing.size(), p.time * 1e6),
           .panels = {strip}};
 }
 
 reports::Figure paper_figure(const CampaignResults& r) {
   reports::Figure figure{.id = "paper-signals",
-                         .title = "Displacement over time at the five pairs of probes, column release",
-                         .caption = "Rings: the picked peaks, whose delay gives the velocity of the pair. First seed, plain DEM."};
+                         .title = "Displacement over time at pairs A and B, column release",
+                         .caption = "Full line: the disc nearer to the source, dashed: the one further on. Rings: the picked peaks, whose delay gives the "
+                                    "velocity of the pair. First seed, plain DEM; the other three pairs are in results.h5."};
   const double ratio = shown_ratio(r);
   for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
     const WaveOutcome* w = r.find(StripCase{StripPacking::random, r.campaign.seeds.front(), r.campaign.models.front(), ratio, Protocol::paper, wave});
     reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
     if (w != nullptr) {
-      for (std::size_t p = 0; p < w->recording.signals.size(); ++p) {
+      for (std::size_t p = 0; p < std::min(kShownPairs * 2, w->recording.signals.size()); ++p) {
         const PickedSignal& s = w->recording.signals[p];
         const std::string label = fmt::format("{}{}", static_cast<char>('A' + static_cast<int>(p / 2)), p % 2 + 1);
-        static constexpr reports::Color kColors[] = {reports::Color::blue, reports::Color::vermilion, reports::Color::green, reports::Color::orange, reports::Color::purple};
-        plot.series.push_back({.name = label, .x = times(w->recording, s.values.size()), .y = s.values, .color = kColors[p / 2 % 5],
+        static constexpr reports::Color kColors[kShownPairs] = {reports::Color::blue, reports::Color::vermilion};
+        plot.series.push_back({.name = label, .x = times(w->recording, s.values.size()), .y = s.values, .color = kColors[p / 2],
                                .dash = p % 2 == 0 ? reports::Dash::solid : reports::Dash::dashed});
         if (s.pick_time) plot.picks.push_back({.x = *s.pick_time, .y = s.pick_amplitude, .series = label});
       }

@@ -11,20 +11,21 @@ namespace ddem::harness {
 /// Means over those seeds of the random packings that gave a velocity; not-a-number where none did.
 struct SpeedPoint {
   Uncertain measured;
+  double lowest = 0.0, highest = 0.0;  ///< of the seeds
   double statics = 0.0, kinematic = 0.0;
 };
 SpeedPoint random_speed(const CampaignResults& results, Model model, double ratio, Protocol protocol, StripWave wave);
 
-/// nu = 1 - 2 (c_s/c_p)^2 over k_t/k_n: mean and scatter over seeds, and the same from static speeds.
+/// nu = 1 - 2 (c_s/c_p)^2 over k_t/k_n: mean, lowest and highest of the seeds, and the mean from static speeds.
 struct PoissonCurve {
-  std::vector<double> ratio, mean, stddev, statics;
+  std::vector<double> ratio, mean, lowest, highest, statics;
 };
 PoissonCurve poisson_curve(const CampaignResults& results, Model model);
 
 reports::Figure poisson_figure(const CampaignResults& results);
 reports::Figure velocity_figure(const CampaignResults& results);
 reports::Figure strip_figure(const CampaignResults& results);
-/// Displacement over time at the pairs of probes, with picks: the paper's protocol.
+/// Displacement over time at the first two pairs of probes, with picks: the paper's protocol.
 reports::Figure paper_figure(const CampaignResults& results);
 /// Particles over continuum for the driven pulse.
 reports::Figure waveform_figure(const CampaignResults& results);

@@ -11,8 +11,10 @@
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
 #include "harness/campaign/stability_study.h"
+#include "harness/campaign/size_study.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/measure/elastic_constants.h"
+#include "harness/run/measure_wave.h"
 #include "harness/run/scene_moduli.h"
 
 namespace ddem::harness {
@@ -38,8 +40,11 @@ struct StaticOutcome {
   std::string failure;  ///< empty: ok
   SceneModuli moduli;   ///< of the strip; bar from the pulled free strip
   Speeds speeds;        ///< static, directional
+  Speeds sections;      ///< static, mean over the pairs of sections at which driven pulses are recorded; random packings only
   references::PlaneModuli kinematic;  ///< closed form: exact on the lattice, an estimate on a random packing
   Speeds kinematic_speeds;
+  /// s; of rigid discs, edges closed above and below and no disc held: that of each wave's strip is as long or a little longer.
+  double critical_time_step = 0.0;
   /// Hexagonal only: homogenised unit cell, to be compared with the closed form.
   std::optional<IsotropicModuli> cell;
 };
@@ -48,6 +53,7 @@ struct PickedSignal {
   std::string probe;
   double x = 0.0;                     ///< m, from the source
   std::vector<double> values;         ///< m
+  double window_end = 0.0;            ///< s: what follows is no first arrival
   std::optional<double> pick_time, pick_amplitude;
   std::string pick_failure;
 };
@@ -66,9 +72,12 @@ struct WaveOutcome {
   bool diverged = false;
   long diverged_step = 0;
   int diverged_disc = 0;
-  std::optional<double> speed, speed_stddev;  ///< m/s, over its pairs of probes
+  std::optional<double> speed, speed_stddev;  ///< peak to peak, m/s, over its pairs of probes
+  std::optional<double> centroid_speed, correlation_speed;  ///< of driven pulses, m/s
+  PickedSpeeds s0;  ///< a driven bar's: what S0 makes of the static speed
   int good_pairs = 0;
   double static_speed = 0.0, kinematic_speed = 0.0;
+  double section_speed = 0.0;  ///< static, between the same sections; 0 on the lattice and for single discs
   double time_step = 0.0, critical_time_step = 0.0;
   long steps = 0;
   std::optional<double> energy_drift;
@@ -97,10 +106,11 @@ struct FemOutcome {
   Recording recording;
 };
 
-/// The random strip of the first seed, for its picture: positions, the displacement of a long wave at the end of the
-/// run, and the probes of the paper's protocol.
+/// The random strip of the first seed, for its picture: positions, the displacement half-way through a column release
+/// (bar), and the probes of the paper's protocol.
 struct StripPicture {
   Packing packing;
+  double time = 0.0;  ///< s
   std::vector<double> displacement;
   std::vector<double> probe_x, probe_y;
   std::vector<std::string> probe_labels;
@@ -117,6 +127,7 @@ struct CampaignResults {
   std::vector<bench::PrecisionPoint> work_precision;  ///< of a small measurement, for the report's figure; no verdict
   std::vector<StabilityMap> stability_maps;
   std::optional<DispersionStudy> dispersion;
+  std::optional<SizeStudy> sizes;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   double wall_seconds = 0.0;

@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include "dem/spectra/spectra.h"
 #include "harness/bench/bench.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
+#include "harness/run/bar_reference.h"
 #include "harness/run/dem_run.h"
 #include "harness/run/fem_plan.h"
+#include "harness/run/section_speeds.h"
 
 namespace ddem::harness {
 namespace {
@@ -37,6 +40,17 @@ bool keeps_recording(const StripCampaign& s, const StripCase& c) {
   return c.packing == StripPacking::random && c.seed == s.seeds.front();
 }
 
+/// P and shear waves share their strip.
+Speeds static_section_speeds(const StripCampaign& s, const StripMaterial& key, const ddem::Assembly& closed) {
+  const auto between = [&](StripWave wave, const ddem::Assembly* assembly) {
+    const Scene scene = scene_of(scene_text(s, case_of(key, wave), 1.0), "sections");
+    const ddem::Assembly& a = assembly != nullptr ? *assembly : build_assembly(scene);
+    return section_speeds(scene, a, lay_probes(scene, a));
+  };
+  const auto free = between(StripWave::bar, nullptr), periodic = between(StripWave::p, &closed);
+  return {free.bar, periodic.s, periodic.p};
+}
+
 StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, const CampaignOptions& options) {
   StaticOutcome out;
   out.key = key;
@@ -46,6 +60,7 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
     const DirectionalSpeeds speeds = out.moduli.speeds().value();
     out.speeds = {speeds.bar, speeds.s, speeds.p};
     const ddem::Assembly closed = build_laterally_closed(scene).value();
+    out.critical_time_step = 2.0 / largest_frequency(closed, contact_parameters(scene), {});
     // A lattice's cell has all its bonds; a strip's ends have not.
     if (key.packing == StripPacking::hexagonal) {
       StripCampaign small = s;
@@ -56,6 +71,7 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
       out.cell = scene_moduli(cell).isotropic();
     } else {
       out.kinematic = kinematic_moduli(scene, closed);
+      out.sections = static_section_speeds(s, key, closed);
     }
     const auto k = references::bulk_wave_speeds(out.kinematic, out.moduli.bulk_density);
     out.kinematic_speeds = {k.bar, k.shear, k.p};
@@ -65,12 +81,13 @@ StaticOutcome solve_statics(const StripCampaign& s, const StripMaterial& key, co
   return out;
 }
 
-Recording record(const std::vector<std::vector<double>>& signals, double dt, const ProbeLayout& layout, double source,
+Recording record(const std::vector<std::vector<double>>& signals, double dt, const ProbeLayout& layout, const WaveContext& context,
                  const std::optional<WaveMeasurement>& measurement) {
   Recording r;
   r.sample_interval = dt;
   for (std::size_t p = 0; p < layout.probes.size(); ++p) {
-    PickedSignal s{layout.probes[p].name, layout.probes[p].x - source, signals[p], {}, {}, ""};
+    const double x = layout.probes[p].x;
+    PickedSignal s{layout.probes[p].name, x - context.left_end, signals[p], causal_window(context, x).end, {}, {}, ""};
     if (measurement && measurement->picks[p].pick.ok()) {
       s.pick_time = measurement->picks[p].pick.value().time;
       s.pick_amplitude = measurement->picks[p].pick.value().amplitude;
@@ -91,6 +108,16 @@ void take_speed(const WaveMeasurement& m, std::optional<double>& speed, std::opt
   }
 }
 
+void take_driven_speeds(const DemRun& run, const StaticOutcome& statics, WaveOutcome& out) {
+  const PickedSpeeds picked = picked_speeds(*run.measurement);
+  out.centroid_speed = picked.centroid;
+  out.correlation_speed = picked.correlation;
+  out.section_speed = statics.sections.of(out.c.wave);
+  if (out.c.wave != StripWave::bar) return;
+  const references::FreeStrip strip{out.static_speed, run.assembly.packing.width, statics.moduli.strip.value().lateral_contraction};
+  out.s0 = picked_speeds(s0_measurement(strip, run.layout, run.context));
+}
+
 WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const StaticOutcome& statics,
                           const CampaignOptions& options, StripPicture* picture) {
   WaveOutcome out;
@@ -108,6 +135,8 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     RunOptions run_options;
     run_options.expected_speed = out.static_speed;
     run_options.warn = false;
+    if (!options.disturb_scene) run_options.critical_time_step = statics.critical_time_step;
+    run_options.snapshots = picture != nullptr ? 2 : 0;  // half-way, where the wave is under way, and at the end
     const DemRun run = run_scene(scene, run_options);
     out.time_step = run.time_step;
     out.critical_time_step = run.critical_time_step;
@@ -122,13 +151,15 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     }
     take_speed(*run.measurement, out.speed, out.speed_stddev, out.failure);
     out.good_pairs = static_cast<int>(run.measurement->speed.good_pairs);
+    if (c.protocol == Protocol::long_wave) take_driven_speeds(run, statics, out);
     if (keeps_recording(s, c)) {
-      out.recording = record(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context.left_end,
+      out.recording = record(wave_component(run.result.signals, *run.wave), run.time_step, run.layout, run.context,
                              run.measurement);
     }
     if (picture != nullptr) {
       picture->packing = run.assembly.packing;
-      picture->displacement = c.wave == StripWave::shear ? run.result.final_state.uy : run.result.final_state.ux;
+      picture->time = run.result.snapshots.front().time;
+      picture->displacement = run.result.snapshots.front().state.ux;
     }
   } catch (const std::exception& e) {
     out.failure = e.what();
@@ -258,7 +289,7 @@ void run_all_fem(const StripCampaign& s, CampaignResults& results, const Campaig
       const auto measurement = measure_wave(signals, fem[n].sample_interval, plans[n].layout, plans[n].context);
       std::optional<double> unused;
       take_speed(measurement, f.speed, unused, f.failure);
-      f.recording = record(signals, fem[n].sample_interval, plans[n].layout, plans[n].context.left_end, measurement);
+      f.recording = record(signals, fem[n].sample_interval, plans[n].layout, plans[n].context, measurement);
     }
   } catch (const std::exception& e) {
     results.fem_failure = e.what();
@@ -276,10 +307,22 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
   }
 }
 
+/// Those that are one job together.
+void run_studies(const StripCampaign& s, CampaignResults& results, const CampaignOptions& options, const std::function<void(std::size_t)>& progress) {
+  results.schemes = study_schemes(s, [&] { progress(1); });
+  results.range = study_range(s);
+  results.work_precision = bench::measure_briefly();
+  progress(1);
+  results.dispersion = study_dispersion(s, options.with_fem);
+  progress(1);
+}
+
 }  // namespace
 
 std::size_t campaign_work(const StripCampaign& s, const CampaignOptions& options) {
-  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? kSchemeStudyWork + 2 + stability_grid(s.full_stability).maps.size() : 0) + (options.with_fem ? fem_outcomes(s).size() : 0);
+  const std::size_t studies = kSchemeStudyWork + 2 + stability_grid(s.full_stability).maps.size() + plan_sizes(s).strips.size();
+  return 4 * materials_of(s).size() + cases_of(s).size() + 4 * lattices_with_strain(s).size() + (options.with_studies ? studies : 0) +
+         (options.with_fem ? fem_outcomes(s).size() : 0);
 }
 
 CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& options) {
@@ -290,11 +333,18 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
   CampaignResults results;
   results.campaign = s;
   const auto keys = materials_of(s);
-  results.statics.resize(keys.size());
+  for (const StripMaterial& key : keys) results.statics.emplace_back().key = key;
   run_jobs(keys.size(), options.jobs, [&](std::size_t k) {
-    results.statics[k] = solve_statics(s, keys[k], options);
+    if (continuum_model(s, keys[k].model) == keys[k].model) results.statics[k] = solve_statics(s, keys[k], options);
     progress(4);
   });
+  for (std::size_t k = 0; k < keys.size(); ++k) {  // lagged and implicit strains have the same equilibrium
+    StripMaterial solved = keys[k];
+    solved.model = continuum_model(s, solved.model);
+    if (solved == keys[k]) continue;
+    results.statics[k] = *results.find(solved);
+    results.statics[k].key = keys[k];
+  }
 
   const auto cases = cases_of(s);
   const auto lattices = lattices_with_strain(s);
@@ -302,40 +352,34 @@ CampaignResults run_campaign(const StripCampaign& s, const CampaignOptions& opti
   results.stability.resize(lattices.size());
   if (options.with_fem) results.fem = fem_outcomes(s);
   const StripCase shown{StripPacking::random, s.seeds.front(), s.models.front(), s.stiffness_ratios.front(), Protocol::paper, StripWave::bar};
-  const auto simulate_nth = [&](std::size_t k) {
-    const StripCase& c = cases[k];
-    const StaticOutcome* statics = results.find(StripMaterial{c.packing, c.seed, c.model, c.stiffness_ratio});
-    StripPicture* picture = id_of(c) == id_of(shown) ? &results.picture : nullptr;
-    results.waves[k] = simulate_case(s, c, *statics, options, picture);
-    progress(1);
-  };
-  // The finite elements first: they are the longest job.
-  const std::size_t fem_jobs = options.with_fem ? 1 : 0;
+  if (options.with_studies) results.sizes = plan_sizes(s);
+  if (results.sizes && results.sizes->strips.empty()) results.sizes.reset();
   const StabilityGrid grid = stability_grid(s.full_stability);
-  const std::size_t maps = options.with_studies ? grid.maps.size() : 0;
-  results.stability_maps.resize(maps);
-  const std::size_t first_map = fem_jobs + 1, long_jobs = first_map + maps;
-  run_jobs(long_jobs + lattices.size() + cases.size(), options.jobs, [&](std::size_t job) {
-    if (job < fem_jobs) {
-      run_all_fem(s, results, options);
-    } else if (job >= first_map && job < long_jobs) {
-      results.stability_maps[job - first_map] = map_stability(s, grid, grid.maps[job - first_map]);
+  results.stability_maps.resize(options.with_studies ? grid.maps.size() : 0);
+
+  // The longest first.
+  std::vector<std::function<void()>> jobs;
+  if (options.with_fem) jobs.push_back([&] { run_all_fem(s, results, options); });
+  for (std::size_t k = 0; results.sizes && k < results.sizes->strips.size(); ++k) {
+    jobs.push_back([&, k] { measure_strip(s, *results.sizes, k), progress(1); });
+  }
+  if (options.with_studies) jobs.push_back([&] { run_studies(s, results, options, progress); });
+  for (std::size_t k = 0; k < results.stability_maps.size(); ++k) {
+    jobs.push_back([&, k] { results.stability_maps[k] = map_stability(s, grid, grid.maps[k]), progress(1); });
+  }
+  for (std::size_t k = 0; k < lattices.size(); ++k) {
+    jobs.push_back([&, k] { results.stability[k] = release_noise(s, lattices[k], options), progress(4); });
+  }
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    jobs.push_back([&, k] {
+      const StripCase& c = cases[k];
+      const StaticOutcome* statics = results.find(StripMaterial{c.packing, c.seed, c.model, c.stiffness_ratio});
+      StripPicture* picture = id_of(c) == id_of(shown) ? &results.picture : nullptr;
+      results.waves[k] = simulate_case(s, c, *statics, options, picture);
       progress(1);
-    } else if (job < long_jobs) {
-      if (!options.with_studies) return;
-      results.schemes = study_schemes(s, [&] { progress(1); });
-      results.range = study_range(s);
-      results.work_precision = bench::measure_briefly();
-      progress(1);
-      results.dispersion = study_dispersion(s, options.with_fem);
-      progress(1);
-    } else if (job < long_jobs + lattices.size()) {
-      results.stability[job - long_jobs] = release_noise(s, lattices[job - long_jobs], options);
-      progress(4);
-    } else {
-      simulate_nth(job - long_jobs - lattices.size());
-    }
-  });
+    });
+  }
+  run_jobs(jobs.size(), options.jobs, [&](std::size_t job) { jobs[job](); });
   place_probes(s, results.picture);
   results.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return results;

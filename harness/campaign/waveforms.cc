@@ -1,5 +1,6 @@
 #include "harness/campaign/waveforms.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ddem::harness {
@@ -22,7 +23,7 @@ std::optional<double> waveform_correlation(const CampaignResults& r, const Strip
   double ab = 0.0, aa = 0.0, bb = 0.0;
   for (std::size_t p = 0; p < a.signals.size(); ++p) {
     const auto &u = a.signals[p].values, &v = b.signals[p].values;
-    const double end = static_cast<double>(v.size() - 1) * b.sample_interval;
+    const double end = std::min(static_cast<double>(v.size() - 1) * b.sample_interval, a.signals[p].window_end);
     for (std::size_t n = 0; n < u.size(); ++n) {
       const double time = static_cast<double>(n) * a.sample_interval;
       if (time > end) break;

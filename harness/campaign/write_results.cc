@@ -88,7 +88,13 @@ void write_wave(Hdf5Group& parent, const WaveOutcome& w) {
   g.set_attribute("status", w.failure.empty() ? std::string("ok") : w.failure);
   set_finite(g, "wave_speed", w.speed);
   set_finite(g, "wave_speed_stddev", w.speed_stddev);
+  set_finite(g, "wave_speed_by_centroid", w.centroid_speed);
+  set_finite(g, "wave_speed_by_correlation", w.correlation_speed);
   set_finite(g, "static_speed", w.static_speed);
+  if (w.section_speed > 0.0) set_finite(g, "static_speed_between_sections", w.section_speed);
+  set_finite(g, "s0_speed", w.s0.peak);
+  set_finite(g, "s0_speed_by_centroid", w.s0.centroid);
+  set_finite(g, "s0_speed_by_correlation", w.s0.correlation);
   set_finite(g, "kinematic_speed", w.kinematic_speed);
   set_finite(g, "time_step", w.time_step);
   set_finite(g, "critical_time_step", w.critical_time_step);
@@ -164,6 +170,34 @@ void write_range(Hdf5Group& parent, const RangeStudy& study) {
   }
 }
 
+/// One group a strip: bias/strip_speed, bulk_speed, one a stiffness ratio; measured speeds, their static reference and S0.
+void write_sizes(Hdf5Group& parent, const SizeStudy& study) {
+  parent.write("stiffness_ratios", study.stiffness_ratios);
+  for (const SizedStrip& s : study.strips) {
+    Hdf5Group g = parent.create_group(fmt::format("{}, refined {}, seed {}", s.packing == StripPacking::random ? "random" : "hexagonal", s.refinement, s.seed));
+    g.set_attribute("status", s.failure.empty() ? std::string("ok") : s.failure);
+    if (!s.failure.empty()) continue;
+    g.set_attribute("discs", s.discs);
+    g.set_attribute("cells", static_cast<std::int64_t>(s.cells));
+    g.set_attribute("radius_over_width", s.radius_over_width);
+    std::vector<double> strip, bulk;
+    for (const WidthBias& b : s.bias) strip.push_back(b.strip), bulk.push_back(b.bulk);
+    g.write("bar_speed_of_strip", strip).set_attribute("unit", "m/s, static");
+    g.write("bar_speed_of_bulk", bulk).set_attribute("unit", "m/s, static");
+    for (const StripWave wave : {StripWave::bar, StripWave::shear, StripWave::p}) {
+      const SizedWave& w = s.wave(wave);
+      Hdf5Group h = g.create_group(name(wave));
+      set_finite(h, "wave_speed", w.measured.peak);
+      set_finite(h, "wave_speed_by_centroid", w.measured.centroid);
+      set_finite(h, "wave_speed_by_correlation", w.measured.correlation);
+      set_finite(h, "static_speed", w.reference);
+      set_finite(h, "s0_over_static", w.s0.peak);
+      set_finite(h, "s0_over_static_by_centroid", w.s0.centroid);
+      set_finite(h, "s0_over_static_by_correlation", w.s0.correlation);
+    }
+  }
+}
+
 void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
   AtomicFile atomic(target);
   Hdf5File file = Hdf5File::create(atomic.temporary_path());
@@ -184,6 +218,10 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
     if (r.range) {
       Hdf5Group range = root.create_group("poisson_range");
       write_range(range, *r.range);
+    }
+    if (r.sizes) {
+      Hdf5Group sizes = root.create_group("sizes");
+      write_sizes(sizes, *r.sizes);
     }
     Hdf5Group strip = root.create_group("strip");
     strip.write("x", r.picture.packing.x).set_attribute("unit", "m");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <thread>
 
@@ -32,7 +33,12 @@ void print_verdicts(const std::vector<reports::Verdict>& verdicts) {
   fmt::print("{}\n", reports::headcount(verdicts));
 }
 
-bool is_study(const std::string& id) { return id.starts_with("schemes/") || id.starts_with("stability-map/") || id.starts_with("dispersion/"); }
+/// A study's case.
+bool is_study(const std::string& id) {
+  const auto begins = [&id](const char* study) { return id.starts_with(study); };
+  constexpr std::array studies{"schemes/", "stability-map/", "dispersion/", "sizes/"};
+  return std::any_of(studies.begin(), studies.end(), begins);
+}
 
 /// Keeps the model and ratio of one case, so that the whole of what it compares is run.
 void restrict_to(StripCampaign& campaign, const std::string& id) {
@@ -47,7 +53,7 @@ void restrict_to(StripCampaign& campaign, const std::string& id) {
       narrowed.stiffness_ratios = {ratio};
     }
   }
-  if (is_study(id)) {  // the study of schemes has models and ratios of its own
+  if (is_study(id)) {  // models and ratios of its own
     narrowed.models = {Model::dem};
     narrowed.stiffness_ratios = {campaign.stiffness_ratios.front()};
   }

@@ -11,6 +11,16 @@
 #include "harness/model/random_packing.h"
 
 namespace ddem::harness {
+namespace {
+
+std::optional<std::string> crystal_text(const packings::PackingStatistics& s) {
+  if (s.ordered_fraction <= packings::kCrystalFraction) return std::nullopt;
+  return fmt::format("{:.0f} % of the discs lie in hexagonal order: discs of nearly the same size crystallise; this packing is "
+                     "a polycrystal, not a random one (radius_ratio = 1.3 or more avoids it)",
+                     100.0 * s.ordered_fraction);
+}
+
+}  // namespace
 
 PackingReport report_on_packing(const Scene& scene, const Packing& packing) {
   const Periodicity periodic = scene.assembly.periodic;
@@ -39,12 +49,17 @@ PackingReport report_on_packing(const Scene& scene, const Packing& packing) {
   if (r.rattlers < r.discs)
     r.network_coordination = 2.0 * static_cast<double>(r.bonds) / static_cast<double>(r.discs - r.rattlers);
 
-  if (random != nullptr && r.statistics.ordered_fraction > packings::kCrystalFraction)
-    r.warnings.push_back(
-        fmt::format("{:.0f} % of the discs lie in hexagonal order: discs of nearly the same size crystallise; this packing is "
-                    "a polycrystal, not a random one (radius_ratio = 1.3 or more avoids it)",
-                    100.0 * r.statistics.ordered_fraction));
+  if (random != nullptr) {
+    if (const auto warning = crystal_text(r.statistics)) r.warnings.push_back(*warning);
+  }
   return r;
+}
+
+std::optional<std::string> crystal_warning(const Scene& scene) {
+  const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
+  if (random == nullptr) return std::nullopt;
+  const Periodicity periodic = scene.assembly.periodic;
+  return crystal_text(packings::statistics_of(jammed_cell(*random, periodic), walls_of(*random, periodic)));
 }
 
 Json packing_json(const PackingReport& r) {

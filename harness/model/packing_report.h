@@ -32,6 +32,9 @@ struct PackingReport {
 /// `packing` is build_packing(scene). Throws InputError where the bonds cannot be made.
 PackingReport report_on_packing(const Scene& scene, const Packing& packing);
 
+/// What `ddem run` says of a random packing that crystallised; nothing of others. Of a tiled one the cell is looked at.
+std::optional<std::string> crystal_warning(const Scene& scene);
+
 Json packing_json(const PackingReport& report);
 /// Lines of text for people, each ended by a newline.
 std::string packing_text(const PackingReport& report);

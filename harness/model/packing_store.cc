@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <vector>
 
 #include "harness/io/atomic_file.h"
@@ -24,6 +26,8 @@ namespace fs = std::filesystem;
 
 // First word of a file. It reads differently where bytes have another order.
 constexpr std::uint64_t kFormat = 0x31676e696b636170ULL;  // "packing1"
+
+constexpr std::string_view kFilePrefix = "packing-";
 
 void append(std::string& bytes, std::uint64_t word) {
   char raw[sizeof word];
@@ -64,7 +68,11 @@ Packing made_or_cached(const packings::RandomSpec& spec) {
   const auto folder = packing_cache_folder();
   if (!folder) return packings::random_jammed(spec);
   const fs::path file = packing_cache_file(*folder, spec);
-  if (auto packing = read_cached_packing(file, spec)) return *packing;
+  if (auto packing = read_cached_packing(file, spec)) {
+    std::error_code ignored;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // used now: trim_packing_cache()
+    return *packing;
+  }
   Packing packing = packings::random_jammed(spec);
   write_cached_packing(file, spec, packing);
   return packing;
@@ -85,7 +93,7 @@ std::optional<fs::path> packing_cache_folder() {
 }
 
 fs::path packing_cache_file(const fs::path& folder, const packings::RandomSpec& spec) {
-  return folder / fmt::format("packing-{:016x}", hash(header(spec)));
+  return folder / fmt::format("{}{:016x}", kFilePrefix, hash(header(spec)));
 }
 
 std::optional<Packing> read_cached_packing(const fs::path& file, const packings::RandomSpec& spec) noexcept {
@@ -109,6 +117,32 @@ std::optional<Packing> read_cached_packing(const fs::path& file, const packings:
   }
 }
 
+void trim_packing_cache(const fs::path& folder, std::uintmax_t most_bytes) noexcept {
+  struct Entry {
+    fs::file_time_type used;
+    fs::path path;
+    std::uintmax_t bytes;
+  };
+  try {
+    std::vector<Entry> entries;
+    std::uintmax_t total = 0;
+    for (const fs::directory_entry& e : fs::directory_iterator(folder)) {
+      if (!e.path().filename().string().starts_with(kFilePrefix) || !e.is_regular_file()) continue;
+      entries.push_back({e.last_write_time(), e.path(), e.file_size()});
+      total += entries.back().bytes;
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return std::tie(a.used, a.path) < std::tie(b.used, b.path); });
+    for (const Entry& e : entries) {
+      if (total <= most_bytes) break;
+      std::error_code ignored;
+      fs::remove(e.path, ignored);
+      total -= e.bytes;
+    }
+  } catch (...) {
+    // Another process trims as well, or the folder is not ours: there is a next time.
+  }
+}
+
 void write_cached_packing(const fs::path& file, const packings::RandomSpec& spec, const Packing& packing) noexcept {
   try {
     std::error_code ignored;
@@ -117,6 +151,7 @@ void write_cached_packing(const fs::path& file, const packings::RandomSpec& spec
     for (const auto* values : {&packing.x, &packing.y, &packing.radius}) append(bytes, *values);
     append(bytes, hash(bytes));
     write_file(file, bytes);
+    trim_packing_cache(file.parent_path(), kLargestPackingCache);
   } catch (...) {
     // A full disk or a folder of somebody else: the next process jams again.
   }

@@ -2,6 +2,7 @@
 // Random packings, each jammed once: jamming takes a thousand times as long as a wave run, and a campaign runs many waves
 // in one packing.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -25,7 +26,15 @@ std::filesystem::path packing_cache_file(const std::filesystem::path& folder, co
 /// spec's packing. Never throws.
 std::optional<Packing> read_cached_packing(const std::filesystem::path& file, const packings::RandomSpec& spec) noexcept;
 
-/// Writes the file whole or not at all; a folder that cannot be written to is no error. Never throws.
+/// What the cache may hold, bytes: some ten thousand packings of 682 discs.
+inline constexpr std::uintmax_t kLargestPackingCache = 200'000'000;
+
+/// Removes packings from the folder, those that were not used for longest first, until the others take no more than
+/// `most_bytes`. Other files stay. Never throws.
+void trim_packing_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes) noexcept;
+
+/// Writes the file whole or not at all, and then trims the folder to kLargestPackingCache; a folder that cannot be written to
+/// is no error. Never throws.
 void write_cached_packing(const std::filesystem::path& file, const packings::RandomSpec& spec, const Packing& packing) noexcept;
 
 }  // namespace ddem::harness

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dem/spectra/spectra.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
+#include "harness/model/packing_report.h"
 #include "harness/run/scene_moduli.h"
 #include "harness/scene/place.h"
 
@@ -124,9 +126,11 @@ const std::vector<std::vector<double>>& wave_component(const Signals& s, Wave wa
   return wave == Wave::longitudinal ? s.ux : s.uy;
 }
 
-DemRun run_scene(const Scene& scene, const RunOptions& options) {
+DemRun run_scene(const Scene& scene, const RunOptions& options) { return run_assembly(scene, build_assembly(scene), options); }
+
+DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOptions& options) {
   DemRun run;
-  run.assembly = build_assembly(scene);
+  run.assembly = std::move(assembly);
   run.layout = lay_probes(scene, run.assembly);
   run.wave = wave_of(scene);
 
@@ -144,12 +148,16 @@ DemRun run_scene(const Scene& scene, const RunOptions& options) {
   in.snapshots = options.snapshots;
   for (const Probe& p : run.layout.probes) in.receivers.push_back(p.receiver);
 
-  run.critical_time_step = 2.0 / largest_frequency(run.assembly, in.contact, in.held);
+  run.critical_time_step =
+      options.critical_time_step ? *options.critical_time_step : 2.0 / largest_frequency(run.assembly, in.contact, in.held);
   run.time_step = in.time_step = choose_step(scene, run.critical_time_step);
   if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
   in.steps = choose_steps(scene, run);
   check_signal_size(scene, run, static_cast<double>(in.steps));
-  if (options.warn) warn_of_instability(scene, run);
+  if (options.warn) {
+    if (const auto crystal = crystal_warning(scene)) run.warnings.push_back(*crystal);
+    warn_of_instability(scene, run);
+  }
 
   run.result = simulate(run.assembly, in);
   if (const auto& c = run.result.new_contacts; c && options.warn && run.time_step > c->critical_time_step) {

@@ -30,7 +30,9 @@ struct RunOptions {
   std::function<bool(double)> on_progress;
   int energy_samples = 8;   ///< of the energies over time: enough for their drift, and an audit costs as much as ten steps
   int snapshots = 0;        ///< of all discs, over the run
-  bool warn = true;         ///< of instability that theory predicts; costs more than a short run
+  bool warn = true;         ///< of crystallised packings, and of instability that theory predicts; costs more than a short run
+  /// Of the assembly, or a smaller one (s), where the caller knows it: finding it takes as long as some hundred steps.
+  std::optional<double> critical_time_step = std::nullopt;
 };
 
 /// What happened, for people: "the run diverged", and what to do about it.
@@ -41,6 +43,8 @@ BreakdownText describe(const Breakdown& breakdown, const Scene& scene);
 
 /// Throws InputError (scene). A divergence is not an exception but in result.breakdown.
 DemRun run_scene(const Scene& scene, const RunOptions& options = {});
+/// The same with an assembly made otherwise than from scene.assembly.
+DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOptions& options = {});
 
 /// The component of the signals that carries the wave.
 const std::vector<std::vector<double>>& wave_component(const Signals& signals, Wave wave);

@@ -86,7 +86,15 @@ Outcome<double> correlated(const ProbeSignal& from, const ProbeSignal& to, const
   return correlation_delay(from.causal(), to.causal(), {0.5 * travel, 2.0 * travel});
 }
 
+std::optional<double> mean_of(const WaveSpeed& w) {
+  return w.speed.ok() ? std::optional(w.speed.value().mean) : std::nullopt;
+}
+
 }  // namespace
+
+PickedSpeeds picked_speeds(const WaveMeasurement& m) {
+  return {mean_of(m.speed), m.by_centroid ? mean_of(*m.by_centroid) : std::nullopt, mean_of(m.by_correlation)};
+}
 
 WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, double dt,
                              const ProbeLayout& layout, const WaveContext& context) {

@@ -44,6 +44,12 @@ struct WaveMeasurement {
   WaveSpeed by_correlation;               ///< cross-correlation of each pair's signals, cut before the first reflection
 };
 
+/// The mean speeds of the three ways, m/s; empty where there is none.
+struct PickedSpeeds {
+  std::optional<double> peak = {}, centroid = {}, correlation = {};
+};
+PickedSpeeds picked_speeds(const WaveMeasurement& measurement);
+
 /// `signals[p]` belongs to `probes[p]`; the component that carries the wave. A mean needs more than half of the pairs.
 WaveMeasurement measure_wave(const std::vector<std::vector<double>>& signals, double dt,
                              const ProbeLayout& layout, const WaveContext& context);

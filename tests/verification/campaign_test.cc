@@ -75,7 +75,8 @@ TEST(Campaign, PassesUndisturbed) {
   const Verdicts verdicts = verdicts_of(r);
   EXPECT_EQ(failures(verdicts), "");
   EXPECT_EQ(r.fem_failure, "");
-  for (const char* study : {"schemes/energy", "schemes/order", "schemes/reach", "schemes/range", "dispersion/implicit-full", "stability-map/random/lagged-full/kt0.30/nu0.30"}) {
+  for (const char* study : {"schemes/energy", "schemes/order", "schemes/reach", "schemes/range", "dispersion/implicit-full",
+                            "stability-map/random/lagged-full/kt0.30/nu0.30", "sizes/bias", "sizes/waves"}) {
     EXPECT_FALSE(verdict(verdicts, study).criteria.empty()) << study;
   }
   // Two models, of each at least: static, lattice, random, the paper's protocol.

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "dem/statics/sections.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/model/assemble.h"
 #include "harness/run/bar_reference.h"
 #include "harness/run/dem_run.h"
 #include "harness/run/scene_moduli.h"
+#include "harness/run/section_speeds.h"
 
 namespace ddem::harness {
 namespace {
@@ -61,18 +61,8 @@ struct Comparison {
   Errors s0;               ///< bar: what the S0 wave makes of the static speed
 };
 
-/// Mean over the pairs of the static speed between their sections.
-double section_speed(const Scene& scene, const DemRun& run, StripWave wave) {
-  std::vector<SectionDiscs> sections;
-  for (const Probe& p : run.layout.probes) sections.push_back(p.receiver.discs);
-  const StaticSections statics = static_sections(run.assembly, contact_parameters(scene), deformation_parameters(scene),
-                                                 edge_band(scene, run.assembly), sections);
-  double sum = 0.0;
-  for (const ProbePair& pair : run.layout.pairs) {
-    const StaticSections::Speeds speeds = statics.between(pair.from, pair.to);
-    sum += wave == StripWave::p ? speeds.p : wave == StripWave::shear ? speeds.s : speeds.bar;
-  }
-  return sum / static_cast<double>(run.layout.pairs.size());
+double static_speed(const StaticSections::Speeds& speeds, StripWave wave) {
+  return wave == StripWave::p ? speeds.p : wave == StripWave::shear ? speeds.s : speeds.bar;
 }
 
 Comparison mean_of_seeds(const StripLaw& law, StripWave wave) {
@@ -87,7 +77,7 @@ Comparison mean_of_seeds(const StripLaw& law, StripWave wave) {
     const DemRun run = run_scene(scene, {whole, {}});
     EXPECT_FALSE(run.result.breakdown) << id_of(c);
     EXPECT_EQ(run.measurement.value().speed.good_pairs, 5u) << id_of(c);
-    out.sections.add(errors_against(*run.measurement, section_speed(scene, run, wave)), 1.0 / kSeeds);
+    out.sections.add(errors_against(*run.measurement, static_speed(section_speeds(scene, run.assembly, run.layout), wave)), 1.0 / kSeeds);
     out.whole.add(errors_against(*run.measurement, whole), 1.0 / kSeeds);
     if (wave != StripWave::bar) continue;
     const references::FreeStrip strip{whole, s.width, moduli.strip->lateral_contraction};

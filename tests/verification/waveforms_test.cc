@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -27,9 +28,9 @@ struct Pair {
   FemPlan plan;
 };
 
-Pair prepare(std::int64_t seed, StripWave wave) {
+Pair prepare(std::int64_t seed, StripWave wave, double ratio = 0.3) {
   const StripCampaign s;
-  const StripCase c{StripPacking::random, seed, Model::dem, 0.3, Protocol::long_wave, wave};
+  const StripCase c{StripPacking::random, seed, Model::dem, ratio, Protocol::long_wave, wave};
   Pair out;
   out.wave = wave == StripWave::shear ? Wave::shear : Wave::longitudinal;
   out.moduli = scene_moduli(scene_of(assembly_text(s, c, false), "statics"));
@@ -44,15 +45,17 @@ Pair prepare(std::int64_t seed, StripWave wave) {
   return out;
 }
 
-/// sum(a b)/sqrt(sum a^2 sum b^2) over all probes, without shift.
+/// sum(a b)/sqrt(sum a^2 sum b^2) over all probes, without shift, each before the echo of the right end.
 double correlation(const Pair& p, const FemResult& fem) {
   const auto& particles = wave_component(p.dem.result.signals, p.wave);
   const auto& continuum = receiver_signals(p.plan, fem, p.wave);
   double ab = 0.0, aa = 0.0, bb = 0.0;
   for (std::size_t k = 0; k < particles.size(); ++k) {
+    const double recorded = fem.sample_interval * static_cast<double>(continuum[k].size() - 1);
+    const double end = std::min(recorded, causal_window(p.dem.context, p.dem.layout.probes[k].x).end);
     for (std::size_t n = 0; n < particles[k].size(); ++n) {
       const double time = static_cast<double>(n) * p.dem.time_step;
-      if (time > fem.sample_interval * static_cast<double>(continuum[k].size() - 1)) break;
+      if (time > end) break;
       const double a = particles[k][n], b = value_at(continuum[k], fem.sample_interval, time);
       ab += a * b, aa += a * a, bb += b * b;
     }
@@ -72,6 +75,22 @@ TEST(Waveforms, OfParticlesAreThoseOfTheContinuum) {
       pairs.push_back(prepare(seed, wave));
       cases.push_back(pairs.back().plan.fem);
     }
+  }
+  const std::vector<FemResult> fem = run_fem(cases);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    ASSERT_EQ(fem[k].status, "ok");
+    EXPECT_GT(correlation(pairs[k], fem[k]), 0.995) << fem[k].id;
+  }
+}
+
+/// Of all packings, without shear stiffness, where they scatter most (seed 5 has 0.996; with the echo it would be 0.994).
+TEST(Waveforms, OfShearAreThoseOfTheContinuumInEveryPacking) {
+  if (!fem_is_built()) GTEST_SKIP() << "ddem-fem is not built";
+  std::vector<Pair> pairs;
+  std::vector<FemCase> cases;
+  for (const std::int64_t seed : {1, 2, 3, 4, 5, 6}) {
+    pairs.push_back(prepare(seed, StripWave::shear, 0.0));
+    cases.push_back(pairs.back().plan.fem);
   }
   const std::vector<FemResult> fem = run_fem(cases);
   for (std::size_t k = 0; k < pairs.size(); ++k) {

@@ -1,4 +1,5 @@
 // ddem pack: what it reports, walls, tiles, and the cache of jammed packings.
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -41,6 +42,12 @@ class Pack : public Cli {
     return fs::exists(folder) ? static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})) : 0;
   }
 
+  /// All that a scene needs besides its packing.
+  static std::string wave() {
+    return "[material]\ndensity = 2000\n[contact]\nnormal_stiffness = 1e10\nstiffness_ratio = 0.3\n[boundary]\ntop_bottom = \"periodic\"\n"
+           "[drive]\nwave = \"shear\"\nduration = \"2 us\"\namplitude = \"10 nm\"\n[time]\nsteps = 20\n[probes]\npairs = 2\n";
+  }
+
   std::string text_;
 
  private:
@@ -68,6 +75,19 @@ TEST_F(Pack, WarnsOfCrystals) {
   const Json j = packed("discs = 330\nradius_ratio = 1\n");
   EXPECT_EQ(j["warnings"].size(), 1u);
   EXPECT_THAT(text_, HasSubstr("discs of nearly the same size crystallise"));
+}
+
+/// The run goes on: the warning is in its results and on standard error.
+TEST_F(Pack, OfEqualDiscsMakesARunWarn) {
+  write("scene.toml", "[assembly]\npacking = \"random\"\nlength = \"8 mm\"\nwidth = \"2 mm\"\ndiscs = 330\nradius_ratio = 1\n" + wave());
+  const SubprocessResult warned = ddem({"run", path("scene.toml"), "--json"});
+  EXPECT_EQ(warned.exit_code, 0) << warned.standard_error;
+  EXPECT_THAT(warned.standard_error, HasSubstr("discs of nearly the same size crystallise"));
+  EXPECT_EQ(Json::parse(warned.standard_output)["warnings"].size(), 1u);
+  write("scene.toml", replaced(read("scene.toml"), "radius_ratio = 1\n", ""));
+  const SubprocessResult silent = ddem({"run", path("scene.toml"), "--json"});
+  EXPECT_EQ(silent.exit_code, 0) << silent.standard_error;
+  EXPECT_TRUE(Json::parse(silent.standard_output)["warnings"].empty());
 }
 
 TEST_F(Pack, TilesLargeSamples) {
@@ -128,6 +148,38 @@ TEST_F(Pack, TrustsNoCacheFileThatIsNotItsOwn) {
   }
   write_file(file, bytes.substr(0, 300));
   EXPECT_FALSE(read_cached_packing(file, spec));
+}
+
+/// What was used last stays, and so does what is no packing.
+TEST_F(Pack, CacheIsTrimmedByLastUse) {
+  const fs::path folder = in_folder("own");
+  fs::create_directories(folder);
+  const auto now = fs::file_time_type::clock::now();
+  for (int k = 0; k < 5; ++k) {
+    const fs::path file = folder / ("packing-" + std::to_string(k));
+    write_file(file, std::string(1000, 'x'));
+    fs::last_write_time(file, now - std::chrono::hours(k == 2 ? 100 : k));
+  }
+  write_file(folder / "notes", std::string(5000, 'x'));
+  fs::last_write_time(folder / "notes", now - std::chrono::hours(1000));
+  trim_packing_cache(folder, 5000);
+  EXPECT_TRUE(fs::exists(folder / "packing-2"));  // 5000 bytes are within the limit
+  trim_packing_cache(folder, 3999);               // two files too many: the oldest ones, 2 and 4
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(fs::exists(folder / ("packing-" + std::to_string(k))), k != 2 && k != 4) << k;
+  EXPECT_TRUE(fs::exists(folder / "notes"));
+  trim_packing_cache(folder, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  trim_packing_cache(in_folder("nowhere"), 0);  // no folder, no error
+}
+
+/// Read is used: the packing of a later run is not the one that leaves.
+TEST_F(Pack, ReadingFromTheCacheCountsAsUse) {
+  packed("discs = 330\n");
+  const fs::path file = *fs::directory_iterator(in_folder("cache") / "ddem");
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(48);
+  fs::last_write_time(file, old);
+  packed("discs = 330\n");
+  EXPECT_GT(fs::last_write_time(file), old + std::chrono::hours(47));
 }
 
 }  // namespace
