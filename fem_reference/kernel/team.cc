@@ -1,16 +1,22 @@
 #include "fem_reference/kernel/team.h"
 
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace ddem::fem {
 namespace {
 
 // A meeting comes within microseconds, unless the machine is busy with something else: then whoever is late may need this
-// very core. A thousand pauses are some ten microseconds.
+// very core, and is let go first.
 void wait_while(const std::atomic<unsigned>& value, unsigned old) {
-  for (int spin = 0; spin < 1000; ++spin) {
+  constexpr int pauses = 100, yields = 200;
+  for (int round = 0; round < pauses + yields; ++round) {
     if (value.load(std::memory_order_acquire) != old) return;
+    if (round >= pauses) {
+      std::this_thread::yield();
+      continue;
+    }
 #if defined(__x86_64__)
     __builtin_ia32_pause();
 #endif
