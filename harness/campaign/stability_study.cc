@@ -24,7 +24,7 @@ using Complex = std::complex<double>;
 constexpr double kAmplitude = 1e-9;  // m; every model here is linear
 constexpr int kCells = 6;            // of the lattice along each side: holds the corners and edge centres of the zone
 constexpr double kRadius = 1e-4;     // m; nothing depends on it
-constexpr long kFewestSteps = 15, kMostSteps = 10000, kNoiseSteps = 400;
+constexpr long kFewestSteps = 15, kSecondLook = 31, kMostSteps = 10000, kNoiseSteps = 400;
 constexpr long kNeutralSteps = 300;    // of schemes without memory, which stay in the motion that they are released from
 constexpr double kWantedGrowth = 35.0, kWantedDecay = 3.0;  // of ln of the amplitude in a run
 constexpr double kNoGrowth = 1e-9;
@@ -186,10 +186,12 @@ std::optional<double> release(const Subject& subject, const Start& start, Simula
   const bool lagged = in.deformation.scheme == Scheme::lagged;
   const double growth = std::log(std::abs(z)), wanted = growth > 0.0 ? kWantedGrowth : kWantedDecay;
   in.steps = std::clamp(static_cast<long>(std::min(wanted / std::max(std::abs(growth), 1e-12), 1e9)), kFewestSteps, lagged ? kMostSteps : kNeutralSteps);
-  // A run counts as diverged at 1e3 times its start, too soon to be rid of the motions that grow a little slower. So all
-  // discs are displaced alike besides, which moves no overlap, by as much as allows the growth; its round-off grows less.
-  // (The shortest runs end before anyone looks.)
-  const double offset = in.steps == kFewestSteps ? 0.0 : kAmplitude * std::expm1(std::max(0.0, growth * static_cast<double>(in.steps)));
+  if (in.steps > kFewestSteps) in.steps = std::max(in.steps, kSecondLook);
+  // A run counts as diverged at 1e3 = e^6.9 times its start, which is looked at every 16 steps and at the end: too soon to be
+  // rid of the motions that grow a little slower. So all discs are displaced alike besides, which moves no overlap, by as much
+  // as allows the growth; its round-off grows like the rest.
+  const double grown = growth * static_cast<double>((in.steps - 1) / 16 * 16);
+  const double offset = kAmplitude * std::exp(grown - 6.0) * (grown > 6.0 ? 1.0 : 0.0);
   for (double& u : in.initial.ux) u += offset;
   in.sample_every = static_cast<int>(std::max<long>(1, in.steps / 2 / static_cast<long>(kWindow)));
   for (int p = 0; p < static_cast<int>(a.size()); ++p) in.receivers.push_back({{p}});

@@ -41,8 +41,9 @@ TEST(StabilityMaps, WrongStrainsAreFound) {
   StabilityGrid grid = few_points();
   grid.step_fraction = {0.2, 0.5};
   grid.softness = {0.1, 0.3};
+  // Stiffer by 3 %, discs strain by as much less, and so do their waves decay.
   grid.disturb = [](SimulationInput& in) { in.deformation.young_modulus *= 1.03; };
-  const StabilityMap map = map_stability(StripCampaign{}, grid, {StripPacking::hexagonal, Scheme::lagged, Correction::full, 0.3, 0.3});
+  const StabilityMap map = map_stability(StripCampaign{}, grid, {StripPacking::hexagonal, Scheme::lagged, Correction::full, 0.0, 0.3});
   EXPECT_EQ(stability_map_verdict(map).state, reports::State::fail);
 }
 
