@@ -35,7 +35,7 @@ struct StepData {
 
   // Implicit strains (kQuad a disc): f = (V C)^-1 S K C u (polynomial), or the residual (conjugate gradients).
   double* source;
-  double relaxation;  ///< polynomial: weight of the residual in the next approximation
+  double of_strain, of_source, of_coupling;  ///< polynomial: the next approximation is of_strain eps + of_source f - of_coupling T eps
   double *rigid_fx, *rigid_fy, *rigid_moment;  ///< polynomial: forces of rigid discs, moment over r
 
   // Conjugate gradients.
@@ -71,8 +71,8 @@ struct StepKernels {
   SliceFunction step = nullptr;      ///< forces, kick and drift; lagged: also the strains of the next evaluation
   SliceFunction evaluate = nullptr;  ///< lagged: a further evaluation of the strains, nothing moves
   // Implicit, polynomial.
-  SliceFunction source = nullptr;   ///< first approximation of the strains from the displacements
-  SliceFunction iterate = nullptr;  ///< a better approximation from the last
+  SliceFunction source = nullptr;   ///< f from the displacements, and the forces of rigid discs
+  SliceFunction iterate = nullptr;  ///< a better approximation from the last; the first is a multiple of f
   SliceFunction respond = nullptr;  ///< kick and drift by the forces that the source stage has left, and the strains
   // Implicit, conjugate gradients.
   SliceFunction residual = nullptr;  ///< of the strains at hand; the first direction

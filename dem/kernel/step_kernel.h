@@ -223,25 +223,18 @@ struct StepKernel {
     watch.tell_strain(d, begin);
   }
 
-  /// f = (V C)^-1 S K C u, the first approximation from zero, and the forces of rigid discs.
-  template <bool kWatched>
+  /// f = (V C)^-1 S K C u, and the forces of rigid discs.
   static void source(const StepData& data, int begin, int end) {
     const StepData d = data;
-    Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.motion, p); },
         [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA { add<true, true>(d, rigid(d, k, own), k, sum); },
-        [&d, &watch](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
+        [&d](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
           store(d.rigid_fx + p, sum.fx);
           store(d.rigid_fy + p, sum.fy);
           if constexpr (kRotation) store(d.rigid_moment + p, sum.moment);
-          const Triple f = strain_from(d, sum);
-          store_triple(d.source, p, f);
-          const Triple next{d.relaxation * f.a, d.relaxation * f.b, d.relaxation * f.c};
-          watch.note_strain(next);
-          store_triple(d.strain_next, p, next);
+          store_triple(d.source, p, strain_from(d, sum));
         });
-    watch.tell_strain(d, begin);
   }
 
   /// The next approximation, by the residual f - eps - T eps.
@@ -252,8 +245,8 @@ struct StepKernel {
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<false, true>(d),
         [&d, &watch](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple rest = difference(difference(load_triple(d.source, p), e), strain_from(d, sum));
-          const Triple next = along(e, d.relaxation, rest);
+          const Triple known = combine(d.of_strain, e, d.of_source, load_triple(d.source, p));
+          const Triple next = along(known, -d.of_coupling, strain_from(d, sum));
           watch.note_strain(next);
           store_triple(d.strain_next, p, next);
         });
@@ -340,7 +333,7 @@ struct StepKernel {
       if constexpr (Kinematics::kLinear) {
         if (f.implicit) {
           k.step = &step<false, kWatched>;
-          k.source = &source<kWatched>, k.iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
+          k.source = &source, k.iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
           k.residual = &residual, k.apply = &apply, k.advance = &advance, k.turn = &turn;
           return k;
         }

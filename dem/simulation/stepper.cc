@@ -132,13 +132,23 @@ void Stepper::begin_strains() {
   }
 }
 
+/// The iteration at hand: eps <- eps + w (f - eps - T eps). The first two relaxations from zero are one sweep of f.
+void Stepper::relax() {
+  const bool first = stages_done_ == 1;
+  const double w = relaxations_[stages_done_], before = relaxations_[0];
+  data_.strain = first ? source_.data() : strain_.data();
+  data_.of_strain = first ? 0.0 : 1.0 - w;
+  data_.of_source = first ? before + w * (1.0 - before) : w;
+  data_.of_coupling = first ? w * before : w;
+}
+
 void Stepper::begin_stage(Stage stage) {
   stage_ = stage;
   if (watch_ && (stage == Stage::evaluate || stage == Stage::motion)) {
     look_for_contacts();
     if (implicit_ && !contacts_agree()) return begin_strains();
   }
-  if (stage == Stage::source || stage == Stage::iterate) data_.relaxation = relaxations_[stages_done_];
+  if (stage == Stage::iterate) relax();
   switch (stage) {
     case Stage::evaluate: due_ = kernels_.evaluate; break;
     case Stage::source: due_ = kernels_.source; break;
@@ -155,7 +165,7 @@ void Stepper::finish_strain_stage() {
   ++stages_done_;
   if (watch_ && !gradients_) add_contact_strains();
   if (!gradients_) {
-    swap_strains();
+    if (stage_ != Stage::source) swap_strains();
     begin_stage(stages_done_ == strain_stages_ ? Stage::motion : implicit_ ? Stage::iterate : Stage::evaluate);
     return;
   }
@@ -238,7 +248,7 @@ bool Stepper::finish_stage() {
 
 void Stepper::swap_strains() {
   std::swap(strain_, strain_next_);
-  bind();
+  data_.strain = strain_.data(), data_.strain_next = strain_next_.data();
 }
 
 void Stepper::bind() {

@@ -68,6 +68,7 @@ class Stepper {
   void begin_stage(Stage stage);
   void finish_strain_stage();
   void begin_strains();
+  void relax();
   // New contacts, stepper_contacts.cc.
   void look_for_contacts();
   void recall_contacts();

@@ -81,13 +81,13 @@ void Stepper::add_contact_strains() {
   for (const NewContact& c : pushing) {
     if (stage_ == Stage::source) {
       add_strain(c, c.stiffness * c.rigid_gap, 1.0, source_);
-      add_strain(c, c.stiffness * c.rigid_gap, data_.relaxation, strain_next_);
     } else if (stage_ == Stage::iterate) {
-      add_strain(c, -c.stiffness * c.approach(strain_.data()), data_.relaxation, strain_next_);
+      add_strain(c, -c.stiffness * c.approach(data_.strain), data_.of_coupling, strain_next_);
     } else {
       add_strain(c, c.force(), data_.new_strain, strain_next_);
     }
   }
+  if (stage_ == Stage::source) return;
   double most = 0.0;
   for (const int begin : range_begin_) {
     if (begin < bonds_.slices) most = std::max(most, most_strained_[begin]);

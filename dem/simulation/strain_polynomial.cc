@@ -34,7 +34,7 @@ struct StretchedChebyshev {
 
 /// For all motions alike.
 std::vector<double> uniform_zeros(double rho, double tolerance) {
-  int terms = 1;
+  int terms = 2;
   while (!(StretchedChebyshev{terms + 1, rho}.bound() <= tolerance)) {
     if (++terms > kMostTerms) {
       throw std::invalid_argument("the implicit strains of discs so soft take more than 2000 iterations a step; use solver = \"conjugate_gradients\", stiffer discs, or a larger tolerance");
@@ -87,7 +87,7 @@ std::optional<std::vector<double>> long_wave_zeros(const StrainSpectrum& s, doub
   const Eigen::Map<const Eigen::VectorXd> at(nodes.data(), static_cast<Eigen::Index>(nodes.size())),
       start(roots.data(), static_cast<Eigen::Index>(roots.size()));
   const double any = std::min(kShortWaveAllowance * tolerance, kLargestShortWaveError);
-  for (int terms = 1; terms <= kMostLongWaveTerms && static_cast<std::size_t>(terms) < most; ++terms) {
+  for (int terms = 2; terms <= kMostLongWaveTerms && static_cast<std::size_t>(terms) < most; ++terms) {
     const Eigen::VectorXd z = gauss_quadrature([&at](const Eigen::VectorXd& x) { return at.cwiseProduct(x); }, start, terms).nodes;
     std::vector<double> zeros(z.begin(), z.end());
     if (error_of_moduli(zeros, s) <= tolerance && error_of_any_motion(zeros, rho) <= any) return zeros;
@@ -116,7 +116,7 @@ std::vector<double> leja_order(std::vector<double> zeros) {
 std::vector<double> strain_relaxations(const StrainSpectrum& s, double tolerance) {
   if (!(s.radius >= 0.0) || !std::isfinite(s.radius)) throw std::invalid_argument("the spectral radius of the particle strains is not finite");
   if (!(tolerance > 0.0 && tolerance < 0.5)) throw std::invalid_argument("the tolerance of the particle strains must be between 0 and 0.5");
-  if (s.radius == 0.0) return {1.0};
+  if (s.radius == 0.0) return {1.0, 1.0};
   const double rho = s.radius * kRadiusMargin;
   std::vector<double> zeros = uniform_zeros(rho, tolerance);
   if (auto fewer = long_wave_zeros(s, rho, tolerance, zeros.size())) zeros = std::move(*fewer);

@@ -18,7 +18,7 @@ namespace ddem {
 inline constexpr double kShortWaveAllowance = 100.0;
 inline constexpr double kLargestShortWaveError = 0.01;
 
-/// The weights w_k, as many as make the moduli right within `tolerance` of themselves (a bound: errors of modes do not
+/// The weights w_k, two at least (the first two are one sweep), as many as make the moduli right within `tolerance` of themselves (a bound: errors of modes do not
 /// cancel) and the stiffness of any other motion within 100 times that, or 0.01; ordered (Leja) so that round-off does not
 /// grow on the way.
 /// Throws std::invalid_argument unless the radius is finite and not negative and tolerance in (0, 0.5) (below that the
