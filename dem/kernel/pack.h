@@ -24,8 +24,23 @@ DDEM_INLINE Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p
 DDEM_INLINE void store(double* p, Pack v) { *reinterpret_cast<Pack*>(p) = v; }
 DDEM_INLINE Pack all(double x) { return Pack{x, x, x, x, x, x, x, x}; }
 
-/// The first where it is larger, else the second: a first that is no number counts for nothing.
-DDEM_INLINE Pack larger(Pack x, Pack y) { return x > y ? x : y; }
+/// Of numbers that are not negative: their order is that of their bits, and the larger of two integers is one instruction. What
+/// is no number counts as larger than all.
+DDEM_INLINE Pack larger(Pack x, Pack y) {
+  using Bits = std::int64_t __attribute__((vector_size(64)));
+  const Bits a = reinterpret_cast<Bits>(x), b = reinterpret_cast<Bits>(y);
+  return reinterpret_cast<Pack>(a > b ? a : b);
+}
+
+/// x x + y, fused where the instruction set has it: for bounds only, whose last bit no result depends on.
+DDEM_INLINE Pack add_square(Pack x, Pack y) {
+#ifdef __FMA__
+  for (int l = 0; l < kWidth; ++l) y[l] = __builtin_fma(x[l], x[l], y[l]);
+  return y;
+#else
+  return x * x + y;
+#endif
+}
 
 DDEM_INLINE Pack square_root(Pack v) {
   for (int l = 0; l < kWidth; ++l) v[l] = std::sqrt(v[l]);

@@ -44,7 +44,8 @@ struct StepData {
   double elasticity_direct, elasticity_coupling, elasticity_shear;  ///< V_p eps : C_p : eps by components of r eps
   double step_length, direction_weight;
 
-  // Watched runs: the largest speed^2 and (r |eps|)^2 of the discs of a range, at its first slice.
+  // Watched runs: the largest speed^2 and r^2 (eps_xx^2 + eps_yy^2 + eps_xy^2) of the discs of a range, at its
+  // first slice.
   double *fastest, *most_strained;
 
   // Nonlinear kinematics, one value a stored half-bond: relative displacement and weighted rotation of the step before,
@@ -73,6 +74,7 @@ struct StepKernels {
   // Implicit, polynomial.
   SliceFunction source = nullptr;   ///< f from the displacements, and the forces of rigid discs
   SliceFunction iterate = nullptr;  ///< a better approximation from the last; the first is a multiple of f
+  SliceFunction last_iterate = nullptr;  ///< the same, noted where watched
   SliceFunction respond = nullptr;  ///< kick and drift by the forces that the source stage has left, and the strains
   // Implicit, conjugate gradients.
   SliceFunction residual = nullptr;  ///< of the strains at hand; the first direction

@@ -118,10 +118,10 @@ struct StepKernel {
   struct Watch {
     Pack speed{}, strain{};
     DDEM_INLINE void note_velocity(Pack vx, Pack vy) {
-      if constexpr (kWatched) speed = larger(vx * vx + vy * vy, speed);
+      if constexpr (kWatched) speed = larger(add_square(vx, vy * vy), speed);
     }
     DDEM_INLINE void note_strain(const Triple& e) {
-      if constexpr (kWatched) strain = larger(e.a * e.a + e.b * e.b + 2.0 * (e.c * e.c), strain);
+      if constexpr (kWatched) strain = larger(add_square(e.a, add_square(e.b, e.c * e.c)), strain);
     }
     void tell(double* at, Pack noted) const {
       if constexpr (kWatched) {
@@ -333,7 +333,7 @@ struct StepKernel {
       if constexpr (Kinematics::kLinear) {
         if (f.implicit) {
           k.step = &step<false, kWatched>;
-          k.source = &source, k.iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
+          k.source = &source, k.iterate = &iterate<false>, k.last_iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
           k.residual = &residual, k.apply = &apply, k.advance = &advance, k.turn = &turn;
           return k;
         }

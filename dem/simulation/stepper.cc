@@ -152,7 +152,7 @@ void Stepper::begin_stage(Stage stage) {
   switch (stage) {
     case Stage::evaluate: due_ = kernels_.evaluate; break;
     case Stage::source: due_ = kernels_.source; break;
-    case Stage::iterate: due_ = kernels_.iterate; break;
+    case Stage::iterate: due_ = stages_done_ + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate; break;
     case Stage::residual: due_ = kernels_.residual; break;
     case Stage::apply: due_ = kernels_.apply; break;
     case Stage::advance: due_ = kernels_.advance; break;

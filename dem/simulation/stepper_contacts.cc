@@ -19,9 +19,10 @@ bool same_pairs(const std::vector<NewContact>& a, const std::vector<NewContact>&
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const NewContact& x, const NewContact& y) { return x.i == y.i && x.j == y.j; });
 }
 
+/// As the kernels note it: twice this bounds the square of the norm, in which eps_xy counts twice.
 double square_of_strain(const double* strain, int p) {
   const double* e = strain + static_cast<std::ptrdiff_t>(kQuad) * p;
-  return e[0] * e[0] + e[1] * e[1] + 2.0 * e[2] * e[2];
+  return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ void Stepper::look_for_contacts() {
   if (gradients_) {
     double most = 0.0;
     for (std::size_t p = 0; p < padded_; ++p) most = std::max(most, square_of_strain(strain_.data(), static_cast<int>(p)));
-    largest_strain_ = std::sqrt(most);
+    largest_strain_ = std::sqrt(2.0 * most);
   }
   watch_->look(motion_.data(), deformable_ ? strain_.data() : nullptr, largest_strain_);
 }
@@ -97,7 +98,7 @@ void Stepper::add_contact_strains() {
       most = std::max(most, square_of_strain(strain_next_.data(), p));
     }
   }
-  largest_strain_ = std::sqrt(most);
+  largest_strain_ = std::sqrt(2.0 * most);
 }
 
 /// The kick of the closed contacts on velocities that start from zero.
