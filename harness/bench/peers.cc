@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 #include <optional>
-#include <regex>
 #include <sstream>
+#include <string_view>
 
 #include "harness/bench/kernels.h"
 #include "harness/bench/lattice.h"
@@ -75,19 +76,38 @@ struct LammpsRun {
   std::vector<double> x, y;  ///< at the end, m
 };
 
+/// What stands in a text between two marks; not empty.
+std::optional<std::string_view> between(std::string_view text, std::string_view before, std::string_view after) {
+  const std::size_t mark = text.find(before);
+  if (mark == std::string_view::npos) return std::nullopt;
+  text.remove_prefix(mark + before.size());
+  const std::size_t end = text.find(after);
+  if (end == std::string_view::npos || end == 0) return std::nullopt;
+  return text.substr(0, end);
+}
+
+/// All of it, finite.
+std::optional<double> number_in(std::optional<std::string_view> text) {
+  double value = 0.0;
+  if (!text) return std::nullopt;
+  const auto [rest, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc{} || rest != text->data() + text->size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 /// Throws MachineError with what it said.
 LammpsRun run_lammps(const std::string& program, const Scene& scene, long steps) {
   const auto& folder = scene.folder.path();
   write_file(folder / "in.strip", input_text(steps));
   const SubprocessResult run = run_program("/bin/sh", {"-c", "cd \"$1\" && exec \"$2\" -in in.strip -log none", "sh", folder.string(), program});
   const std::string& said = run.standard_output;
-  std::smatch match;
-  if (!run.succeeded() || !std::regex_search(said, match, std::regex("Loop time of ([0-9.eE+-]+) on"))) {
+  const std::optional<double> seconds = number_in(between(said, "Loop time of ", " on"));
+  if (!run.succeeded() || !seconds) {
     const std::string& last = run.standard_error.empty() ? said : run.standard_error;
     throw MachineError(program + ": " + run.status() + ": " + last.substr(last.size() - std::min<std::size_t>(last.size(), 300)));
   }
   LammpsRun result;
-  result.seconds = std::stod(match[1]);
+  result.seconds = *seconds;
   std::istringstream lines(read_file(folder / "end.txt"));
   std::string line;
   while (std::getline(lines, line) && !line.starts_with("ITEM: ATOMS")) {}
@@ -146,9 +166,7 @@ std::optional<std::string> version_of(const std::string& program) {
   } catch (const MachineError&) {
     return std::nullopt;
   }
-  std::smatch match;
-  const bool found = std::regex_search(help.standard_output, match, std::regex("Simulator - ([^\n]+)"));
-  return found ? match[1].str() : std::string("version unknown");
+  return std::string(between(help.standard_output, "Simulator - ", "\n").value_or("version unknown"));
 }
 
 }  // namespace
