@@ -235,7 +235,7 @@ DeformationParameters strains(const StripCampaign& s, const StabilityKey& key, d
   d.correction = key.correction;
   d.young_modulus = s.normal_stiffness / softness;
   d.poisson_ratio = key.particle_poisson_ratio;
-  d.tolerance = 1e-6;  // of the converged stiffness, which the predictions have
+  d.tolerance = 1e-8;  // so that any motion has the converged stiffness, which the predictions have, within 1e-6
   return d;
 }
 

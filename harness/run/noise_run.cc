@@ -80,6 +80,7 @@ NoiseFlutter flutter_from_noise(const Assembly& assembly, const ContactParameter
   in.deformation.scheme = Scheme::implicit;
   in.deformation.evaluations = 1;
   in.deformation.relaxation = 1.0;
+  in.deformation.tolerance = 1e-8;  // short waves flutter: their stiffness too has to be that of converged strains, within 1e-6
   in.held = held;
   in.time_step = kFlutterStep * 2.0 / flutter.largest_frequency;
   const NoiseRun noise = run_noise(assembly, in, kFlutterWork);

@@ -141,7 +141,7 @@ TEST(ObservedOrder, DemIsOfSecondOrder) {
 
 TEST(ObservedOrder, ImplicitStrainsAreOfSecondOrder) {
   DeformationParameters d = strains(Scheme::implicit);
-  d.tolerance = 1e-12;  // of the stiffness: the time step's error alone remains, 1e-6 at the finest
+  d.tolerance = 1e-12;  // the time step's error alone remains, 1e-6 at the finest
   expect_order([&](double fraction) { return displacement_error(d, fraction); }, 2.0, 5e-3);
 }
 
