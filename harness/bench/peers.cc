@@ -16,7 +16,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/io/subprocess.h"
-#include "harness/run/temporary_folder.h"
+#include "harness/io/temporary_folder.h"
 
 namespace ddem::harness::bench {
 namespace {

@@ -11,9 +11,9 @@
 #include "harness/io/hdf5.h"
 #include "harness/io/json.h"
 #include "harness/io/subprocess.h"
+#include "harness/io/temporary_folder.h"
 #include "harness/references/plane_elasticity.h"
 #include "harness/run/fem_reuse.h"
-#include "harness/run/temporary_folder.h"
 
 namespace ddem::harness {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "harness/io/atomic_file.h"
-#include "harness/run/temporary_folder.h"
+#include "harness/io/temporary_folder.h"
 
 namespace ddem::harness::bench {
 namespace {

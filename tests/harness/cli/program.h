@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "harness/io/subprocess.h"
-#include "harness/run/temporary_folder.h"
+#include "harness/io/temporary_folder.h"
 
 namespace ddem::harness::test {
 

@@ -1,4 +1,4 @@
-#include "harness/run/temporary_folder.h"
+#include "harness/io/temporary_folder.h"
 
 #include <stdlib.h>
 
