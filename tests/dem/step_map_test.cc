@@ -11,23 +11,16 @@
 #include "dem/spectra/spectra.h"
 #include "meshes/packings/random.h"
 #include "tests/support/assemblies.h"
+#include "tests/support/parameters.h"
 
 namespace ddem {
 namespace {
 
-using test::kNormalStiffness;
+using test::linear_contact;
+using test::strains;
 
 constexpr double kRadius = 1e-4;
 constexpr int kCells = 4;
-
-ContactParameters contact(double lambda) { return {kNormalStiffness, lambda, Kinematics::linear}; }
-
-DeformationParameters strains(Scheme scheme, Correction c, double softness, int evaluations = 1, double relaxation = 1.0) {
-  DeformationParameters d{scheme, c, kNormalStiffness / softness, 0.3, Plane::stress};
-  d.evaluations = evaluations;
-  d.relaxation = relaxation;
-  return d;
-}
 
 /// Largest growth of the waves that fit the cell; those with motion, but translations.
 double wave_growth(const HexagonalBloch& bloch, double dt) {
@@ -46,14 +39,14 @@ double wave_growth(const HexagonalBloch& bloch, double dt) {
 TEST(StepMap, OfTheLatticeHasThePlaneWavesAsItsModes) {
   const Assembly a = test::hexagonal_assembly({.columns = kCells, .rows = kCells, .radius = kRadius, .periodic_x = true, .periodic_y = true});
   for (const double lambda : {0.0, 0.5}) {
-    const double critical = 2.0 / largest_frequency(a, contact(lambda), {});
+    const double critical = 2.0 / largest_frequency(a, linear_contact(lambda), {});
     for (const DeformationParameters& d :
          {DeformationParameters{}, strains(Scheme::implicit, Correction::full, 2.0), strains(Scheme::implicit, Correction::normal, 0.5),
           strains(Scheme::lagged, Correction::normal, 0.25), strains(Scheme::lagged, Correction::full, 0.5), strains(Scheme::lagged, Correction::full, 0.25, 2),
           strains(Scheme::lagged, Correction::normal_only_stress, 0.3, 3, 0.8)}) {
-      const HexagonalBloch bloch({kRadius, test::kDensity, 1.0, 0.0}, contact(lambda), d);
+      const HexagonalBloch bloch({kRadius, test::kDensity, 1.0, 0.0}, linear_contact(lambda), d);
       for (const double fraction : {0.3, 1.05}) {
-        const double growth = std::abs(leading_mode(a, contact(lambda), d, fraction * critical).factor) - 1.0, waves = wave_growth(bloch, fraction * critical);
+        const double growth = std::abs(leading_mode(a, linear_contact(lambda), d, fraction * critical).factor) - 1.0, waves = wave_growth(bloch, fraction * critical);
         // Eigenvalues of a matrix of norm 4 and of its blocks; the lattice's are degenerate: round-off to the power 1/2.
         EXPECT_NEAR(growth, waves, 1e-7) << lambda << " " << static_cast<int>(d.scheme) << static_cast<int>(d.correction) << " " << fraction;
       }
@@ -69,9 +62,9 @@ TEST(StepMap, OfARandomPackingGrowsBeyondTheCriticalStep) {
                                            strains(Scheme::lagged, Correction::normal_only_stress, 0.25)}) {
       // The critical step is right to 1e-5 or better; 0.1 % beyond it the fastest motion grows by 2 sqrt(2e-3) = 9 % a step,
       // for lagged strains in proportion to the excess.
-      const double step = critical_step(a, contact(lambda), d, {}).step.value();
-      EXPECT_LT(std::abs(leading_mode(a, contact(lambda), d, 0.999 * step).factor), 1.0 + 1e-9) << lambda;
-      EXPECT_GT(std::abs(leading_mode(a, contact(lambda), d, 1.001 * step).factor), 1.0 + 1e-4) << lambda;
+      const double step = critical_step(a, linear_contact(lambda), d, {}).step.value();
+      EXPECT_LT(std::abs(leading_mode(a, linear_contact(lambda), d, 0.999 * step).factor), 1.0 + 1e-9) << lambda;
+      EXPECT_GT(std::abs(leading_mode(a, linear_contact(lambda), d, 1.001 * step).factor), 1.0 + 1e-4) << lambda;
     }
   }
 }
