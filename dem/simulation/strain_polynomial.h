@@ -18,9 +18,9 @@ namespace ddem {
 inline constexpr double kShortWaveAllowance = 100.0;
 inline constexpr double kLargestShortWaveError = 0.01;
 
-/// The weights w_k, two at least (the first two are one sweep), as many as make the moduli right within `tolerance` of themselves (a bound: errors of modes do not
-/// cancel) and the stiffness of any other motion within 100 times that, or 0.01; ordered (Leja) so that round-off does not
-/// grow on the way.
+/// The weights w_k, two at least (the first two are one sweep), as many as make the moduli right within `tolerance` of
+/// themselves (a bound: errors of modes do not cancel) and the stiffness of any other motion within 100 times that, or 0.01;
+/// ordered (Leja) so that round-off does not grow on the way.
 /// Throws std::invalid_argument unless the radius is finite and not negative and tolerance in (0, 0.5) (below that the
 /// effective stiffness stays positive), and where it would take more than 2000 terms.
 std::vector<double> strain_relaxations(const StrainSpectrum& spectrum, double tolerance);
