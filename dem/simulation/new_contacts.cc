@@ -13,10 +13,14 @@ namespace {
 
 /// Between two surveys there shall be about so many steps.
 constexpr double kStepsAhead = 32.0;
+/// In mean radii: the gap up to which pairs are known at first, and at most in linear kinematics.
+constexpr double kFirstReach = 1.0, kLinearReach = 4.0;
+/// In mean radii: a run that has come so far is lost, and its watch over.
+constexpr double kLost = 1e6;
 
-double longest_reach(const Packing& p) {
+double longest_reach(const Packing& p, bool nonlinear) {
   const double widest = 2.0 * *std::max_element(p.radius.begin(), p.radius.end());
-  double reach = HUGE_VAL;
+  double reach = (nonlinear ? kFirstReach : kLinearReach) * mean_radius(p);
   for (const double period : {p.period.x, p.period.y}) {
     if (period > 0.0) reach = std::min(reach, 0.5 * period * (1.0 - 1e-12) - widest);
   }
@@ -42,11 +46,12 @@ NewContacts::NewContacts(const Assembly& a, const SimulationInput& input, const 
       position_(position),
       always_(input.new_contacts == ContactWatch::every_step),
       nonlinear_(input.contact.kinematics == Kinematics::nonlinear),
-      longest_reach_(longest_reach(a.packing)) {
+      longest_reach_(longest_reach(a.packing, nonlinear_)),
+      lost_(kLost * mean_radius(a.packing)) {
   if (!(longest_reach_ > 0.0)) {
     throw std::invalid_argument("new contacts cannot be watched where a period is shorter than two discs: new_contacts = \"off\", or more discs");
   }
-  reach_ = std::min(mean_radius(a.packing), longest_reach_);
+  reach_ = std::min(kFirstReach * mean_radius(a.packing), longest_reach_);
   found_at_.assign(2 * a.size(), 0.0);
   find_pairs(nullptr);
 }
@@ -76,7 +81,6 @@ void NewContacts::find_pairs(const double* motion) {
                       from_start(start.y, start.period.y, c.dy, 1), std::min(r_i + r_j, start_distance(start, c)),
                       normal_stiffness(contact_, r_i, r_j)});
   }
-  margin_ = 0.0;  // not surveyed yet
 }
 
 NewContact NewContacts::state(const Pair& pair, const double* motion) const {
@@ -101,25 +105,32 @@ void NewContacts::moved(double distance) {
   path_ += distance;
 }
 
-/// Whether every pair that could close soon is known: discs further apart have to cross the reach first.
-bool NewContacts::near_enough(const double* motion) {
-  double furthest = 0.0;
+/// How far a disc has moved at most since the pairs were found, m; not a number if a displacement is none.
+double NewContacts::furthest(const double* motion) const {
+  double most = 0.0;
   for (std::size_t d = 0; d < assembly_.size(); ++d) {
     const double *u = motion + kQuad * position_[d], *from = found_at_.data() + 2 * d;
-    furthest = std::max(furthest, std::hypot(u[0] - from[0], u[1] - from[1]));
+    const double moved = std::hypot(u[0] - from[0], u[1] - from[1]);
+    if (!(moved <= most)) most = moved;
+    if (std::isnan(most)) break;
   }
-  margin_ = !nonlinear_ && reach_ >= longest_reach_ ? HUGE_VAL : reach_ - 2.0 * furthest;
-  return margin_ > 0.25 * reach_ || !std::isfinite(furthest);
+  return most;
 }
 
+/// Pairs that are not known have to cross the reach before they close: as long as none is half-way, the known ones will do.
 void NewContacts::survey(const double* motion, double reach_of_strains) {
-  if (!near_enough(motion)) {
-    if (!nonlinear_) reach_ = std::min(2.0 * reach_, longest_reach_);  // distances are those of the start
-    find_pairs(nonlinear_ ? motion : nullptr);
-    near_enough(motion);
-  }
   path_ = 0.0;
   near_.clear();
+  margin_ = HUGE_VAL;
+  double moved = furthest(motion);
+  if (!(moved < lost_)) return;
+  const bool may_reach_further = nonlinear_ || reach_ < longest_reach_;
+  if (may_reach_further && moved > 0.375 * reach_) {
+    if (!nonlinear_) reach_ = std::min(2.0 * reach_, longest_reach_);  // distances are those of the start
+    find_pairs(nonlinear_ ? motion : nullptr);
+    moved = furthest(motion);
+  }
+  if (nonlinear_ || reach_ < longest_reach_) margin_ = reach_ - 2.0 * moved;
   const double horizon = 2.0 * kStepsAhead * last_distance_ + 2.0 * reach_of_strains;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const double gap = state(pairs_[k], motion).rigid_gap;

@@ -4,7 +4,8 @@
 //
 //   gap = n.(x_j + u_j - x_i - u_i) - (r_i + r_j) - s n.(r_i eps_i + r_j eps_j).n,   force on i: k_n gap n where gap < 0
 //
-// n stands still in linear kinematics. Discs that overlap at the start without a bond are taken to touch.
+// n stands still in linear kinematics, which means little beyond displacements of a radius: there pairs further apart than
+// four radii at the start are never watched. Discs that overlap at the start without a bond are taken to touch.
 //
 // Looking at every pair at every step would cost more than the bonds. No disc moves further in a step than the fastest, and
 // no boundary further than the largest strain takes it: as long as the sum of that cannot have closed the narrowest gap
@@ -46,7 +47,7 @@ class NewContacts {
 
   void survey(const double* motion, double reach_of_strains);
   void find_pairs(const double* motion);
-  bool near_enough(const double* motion);
+  double furthest(const double* motion) const;
   NewContact state(const Pair& pair, const double* motion) const;
 
   const Assembly& assembly_;
@@ -58,7 +59,8 @@ class NewContacts {
   std::vector<double> found_at_;              // displacements where they were searched (x, y a disc), nonlinear kinematics
   std::vector<Pair> pairs_;
   std::vector<int> near_;                     // of pairs_: to be looked at in every step
-  double margin_ = 0.0;                       // narrowest gap of the others, at the survey
+  double margin_ = 0.0;                       // narrowest gap of the others, at the survey; 0 before the first
+  double lost_ = 0.0;
   double path_ = 0.0, last_distance_ = 0.0;   // moved since the survey; in the last step
   std::vector<NewContact> closed_;
 };

@@ -4,6 +4,7 @@
 #include <barrier>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <numbers>
 #include <stdexcept>
 #include <thread>
@@ -102,7 +103,7 @@ class Overseer {
     result_.steps_done = stepper_.step();
     result_.final_state = stepper_.state();
     result_.new_contacts = stepper_.new_contacts();
-    if (result_.new_contacts) result_.new_contacts->critical_time_step = 2.0 / largest_frequency(stepper_.all_closed(), in_.contact, in_.held);
+    if (result_.new_contacts && !result_.breakdown) result_.new_contacts->critical_time_step = 2.0 / largest_frequency(stepper_.all_closed(), in_.contact, in_.held);
   }
 
  private:
@@ -122,10 +123,19 @@ void run_one_thread(Stepper& stepper, Overseer& overseer) {
   } while (overseer.finish_stage());
 }
 
-/// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the stage.
+/// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the stage. What that throws is
+/// thrown here.
 void run_threads(Stepper& stepper, Overseer& overseer) {
   bool go_on = true;
-  std::barrier barrier(stepper.threads(), [&]() noexcept { go_on = overseer.finish_stage(); });
+  std::exception_ptr failure;
+  std::barrier barrier(stepper.threads(), [&]() noexcept {
+    try {
+      go_on = overseer.finish_stage();
+    } catch (...) {
+      failure = std::current_exception();
+      go_on = false;
+    }
+  });
   const auto work = [&](int id) {
     const int begin = stepper.range_begin(id), end = stepper.range_begin(id + 1);
     do {
@@ -133,9 +143,12 @@ void run_threads(Stepper& stepper, Overseer& overseer) {
       barrier.arrive_and_wait();
     } while (go_on);
   };
-  std::vector<std::jthread> team;
-  for (int id = 1; id < stepper.threads(); ++id) team.emplace_back(work, id);
-  work(0);
+  {
+    std::vector<std::jthread> team;
+    for (int id = 1; id < stepper.threads(); ++id) team.emplace_back(work, id);
+    work(0);
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace

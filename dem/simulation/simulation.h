@@ -98,6 +98,7 @@ struct NewContactCount {
   long first_step = 0;
   std::size_t most = 0;  ///< closed at once
   /// 2/omega_max were every pair near enough to be watched closed, s: with some of them closed the step is safe below it.
+  /// 0 after a breakdown.
   double critical_time_step = 0.0;
 };
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
+#include "dem/assembly/rattlers.h"
 #include "dem/spectra/spectra.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
@@ -77,6 +79,16 @@ WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave,
   c.smallest_arrival = smallest_arrival(scene);
   c.pulse_half_width = pulse_half_width(scene, c.speed);
   return c;
+}
+
+/// Bonds that a file lists may be meant to leave pieces apart, or not.
+void warn_of_pieces(const Scene& scene, DemRun& run) {
+  if (!std::holds_alternative<BondFile>(scene.assembly.bonding)) return;
+  const std::size_t networks = connected_components(run.assembly.size(), run.assembly.bonds, run.assembly.rattlers).size();
+  if (networks + run.assembly.rattlers.size() == 1) return;
+  run.warnings.push_back(fmt::format("the listed bonds make {} networks and leave {} discs without a bond: these act on each other by "
+                                     "new contacts only; name the missing bonds if they belong together",
+                                     networks, run.assembly.rattlers.size()));
 }
 
 /// Lagged DDEM beyond its limits runs, with a warning (theory section 3).
@@ -156,11 +168,12 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
   check_signal_size(scene, run, static_cast<double>(in.steps));
   if (options.warn) {
     if (const auto crystal = crystal_warning(scene)) run.warnings.push_back(*crystal);
+    warn_of_pieces(scene, run);
     warn_of_instability(scene, run);
   }
 
   run.result = simulate(run.assembly, in);
-  if (const auto& c = run.result.new_contacts; c && options.warn && run.time_step > c->critical_time_step) {
+  if (const auto& c = run.result.new_contacts; c && options.warn && !run.result.breakdown && run.time_step > c->critical_time_step) {
     run.warnings.push_back(fmt::format("new contacts have closed, and were all that are near to close, the critical step would be "
                                        "{:.4g} s; this step is {:.4g} s: lower step_fraction by {:.3g} to be sure",
                                        c->critical_time_step, run.time_step, c->critical_time_step / run.time_step));

@@ -65,8 +65,10 @@ Json run_json(const DemRun& run) {
   j["time_step"] = run.time_step;
   j["steps"] = r.steps_done;
   j["wall_seconds"] = r.wall_seconds;
-  if (r.new_contacts) j["new_contacts"] = {{"first_step", r.new_contacts->first_step}, {"most_at_once", r.new_contacts->most},
-                         {"critical_time_step", r.new_contacts->critical_time_step}};
+  if (const auto& c = r.new_contacts) {
+    j["new_contacts"] = {{"first_step", c->first_step}, {"most_at_once", c->most}};
+    j["new_contacts"]["critical_time_step"] = r.breakdown ? Json{{"status", "the run broke down"}} : Json(c->critical_time_step);
+  }
   if (r.steps_done > 0) {
     j["nanoseconds_per_bond_step"] =
         1e9 * r.wall_seconds / (static_cast<double>(run.assembly.bonds.size()) * static_cast<double>(r.steps_done));

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "dem/simulation/new_contacts.h"
 #include "dem/simulation/simulation.h"
 #include "dem/spectra/spectra.h"
 #include "tests/support/assemblies.h"
@@ -226,6 +228,41 @@ TEST(NewContacts, TheBoundMissesNone) {
       EXPECT_EQ(threads.final_state.ux, always.final_state.ux);
       EXPECT_NE(off.final_state.ux, always.final_state.ux);
     }
+  }
+}
+
+TEST(NewContacts, ARunThatDivergesEndsAsOneThatDoesNotWatch) {
+  // Displacements grow by orders of magnitude in a step: pairs that are watched must not, nor may their search.
+  const Assembly a = test::random_free_strip();
+  for (const Kinematics kinematics : {Kinematics::linear, Kinematics::nonlinear}) {
+    SimulationInput in = shaken(a, Scheme::none, 100.0, kinematics);
+    in.time_step *= 1e3;
+    in.steps = 2000;
+    in.new_contacts = ContactWatch::bound;
+    for (const int threads : {1, 2}) {
+      in.threads = threads;
+      const auto breakdown = simulate(a, in).breakdown;
+      ASSERT_TRUE(breakdown);
+      EXPECT_EQ(breakdown->cause, Breakdown::Cause::diverged);
+    }
+  }
+}
+
+TEST(NewContacts, LinearKinematicsKnowsTheNearPairsOnly) {
+  const Assembly a = test::random_free_strip();
+  SimulationInput in = shaken(a, Scheme::none, 1.0, Kinematics::linear);
+  in.new_contacts = ContactWatch::bound;
+  std::vector<int> place(a.size());
+  std::iota(place.begin(), place.end(), 0);
+  NewContacts watch(a, in, place);
+  std::vector<double> motion(kQuad * a.size(), 0.0);
+  for (const double far : {1e-4, 1e-3, 1e-1, 1e9, HUGE_VAL, std::nan("")}) {
+    motion[0] = far;
+    watch.moved(far);
+    watch.look(motion.data(), nullptr, 0.0);
+    // Those within a gap of four mean radii have their centres within 6.5 or so, where there are (6.5^2 - 1) / 2 pairs a disc
+    // at a solid fraction of one.
+    EXPECT_LT(watch.all_closed().bonds.size(), 21 * a.size()) << far;
   }
 }
 
