@@ -189,6 +189,25 @@ TEST(NewContacts, EnergyIsKeptToSecondOrderAtAnySoftness) {
   }
 }
 
+TEST(NewContacts, FieldsHoldTheForcesOfTheContact) {
+  // The contact presses from a third of the period on, for about half of it: the snapshot is amidst. The law of the disc ties
+  // its strain, which the solver found, to the stress, which the fields are made of: nu_p = 0, so eps_xx = s_xx / E_p.
+  const Assembly a = three_discs();
+  for (const Scheme scheme : {Scheme::implicit, Scheme::lagged}) {
+    SimulationInput in = three_disc_input(scheme, 0.25, 1e-4, 0.45);
+    in.snapshots = 1;
+    const SimulationResult r = simulate(a, in);
+    ASSERT_EQ(r.snapshots.size(), 1u);
+    const Snapshot& s = r.snapshots.front();
+    EXPECT_LT(s.stress.xx[2], 0.0);
+    // Lagged strains are those of the step before: within a step's turn.
+    const double tolerance = scheme == Scheme::implicit ? 1e-9 : 2e-3;
+    for (int d = 0; d < 3; ++d) {
+      EXPECT_NEAR(s.strain.xx[d] * in.deformation.young_modulus, s.stress.xx[d], tolerance * std::abs(s.stress.xx[1])) << d;
+    }
+  }
+}
+
 /// A random strip shaken by velocities at random (m/s).
 SimulationInput shaken(const Assembly& a, Scheme scheme, double amplitude, Kinematics kinematics) {
   SimulationInput in;
