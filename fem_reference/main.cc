@@ -40,7 +40,7 @@ int complain(Exit code, const std::string& message) {
 }
 
 // A failed solution is a status of its case; the other cases still run.
-CaseResult solve(const StripCase& strip, const StripModel& model, Team& team) {
+CaseResult solve(const StripCase& strip, const StripModel& model, ddem::Team& team) {
   try {
     return run_case(strip, model, team);
   } catch (const std::runtime_error& error) {
@@ -54,7 +54,7 @@ int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
   std::optional<SignalsFile> signals;
   if (is_first) signals.emplace(arguments.output, version);
   StripModeller modeller;
-  Team team(arguments.threads);
+  ddem::Team team(arguments.threads);
   bool all_ok = true;
   for (const StripCase& strip : cases) {
     const StripModel model = modeller.model(strip);

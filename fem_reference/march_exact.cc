@@ -42,7 +42,9 @@ Response driven(const StripProblem& problem) {
   for (std::size_t k = 0; k < r.start.size(); ++k) r.start[k] *= -problem.inverse_mass[k];
   r.coefficients = [pulse](double t, double dt, std::span<double> a) { drive_coefficients(pulse, t, dt, a); };
   r.factor = drive.amplitude;
-  evaluate_receivers(problem.model, edge, r.edge);
+  const ReceiverReader receivers(problem.model, problem.stiffness);
+  r.edge.resize(receivers.values());
+  receivers.evaluate(edge, r.edge.data());
   if (problem.model.processes) problem.model.processes->sum(r.edge);
   r.motion = [pulse, amplitude = drive.amplitude](double t) { return amplitude * pulse(t); };
   r.largest_step = largest_step_for(pulse);
@@ -59,21 +61,22 @@ Response released(const StripProblem& problem) {
 
 // Receivers' values of T_0 start .. T_(count-1) start, one row a state.
 Matrix march(const StripProblem& problem, const Response& response, std::size_t count, CaseResult& result) {
-  std::vector<double> rows;
-  rows.reserve(count * receiver_values(problem.model));
+  const ReceiverReader receivers(problem.model, problem.stiffness);
+  std::vector<double> rows(count * receivers.values());
   Leapfrog leapfrog(problem.stiffness, problem.inverse_mass, {response.start, {}}, result.time_step);
-  evaluate_receivers(problem.model, leapfrog.displacement(), rows);
+  receivers.evaluate(leapfrog.displacement(), rows.data());
   EnergyAudit audit(1, count - 1);
   for (std::size_t k = 1; k < count; ++k) {
-    leapfrog.step();
-    evaluate_receivers(problem.model, leapfrog.displacement(), rows);
+    double* row = &rows[k * receivers.values()];
+    leapfrog.step([&](int thread) { receivers.evaluate_share(thread, leapfrog.displacement(), row); });
+    receivers.evaluate_rest(leapfrog.displacement(), row);
     audit.watch(leapfrog);
   }
   if (problem.model.processes) problem.model.processes->sum(rows);
   result.steps = leapfrog.steps_done();
   result.energy_drift = audit.drift();
   return Eigen::Map<const Matrix>(rows.data(), static_cast<Eigen::Index>(count),
-                                  static_cast<Eigen::Index>(receiver_values(problem.model)));
+                                  static_cast<Eigen::Index>(receivers.values()));
 }
 
 // One thread's share of the samples, block by block: each block is a product of matrices of its own.
@@ -113,7 +116,7 @@ void march_exact(const StripProblem& problem, CaseResult& result) {
   result.time_step = std::min(march_fraction * result.critical_time_step, response.largest_step);
   const double unit = strip.time.step.value_or(strip.time.step_fraction * result.critical_time_step);
   result.sample_interval = unit * static_cast<double>(strip.sample_every);
-  const std::size_t values = receiver_values(problem.model);
+  const std::size_t values = ReceiverReader(problem.model, problem.stiffness).values();
   const std::uint64_t samples = count_steps(strip, unit, values) / strip.sample_every + 1;
   const double end = static_cast<double>(samples - 1) * result.sample_interval;
   const double work = end / result.time_step * static_cast<double>(samples) * static_cast<double>(values);

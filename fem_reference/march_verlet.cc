@@ -50,7 +50,8 @@ void march_verlet(const StripProblem& problem, CaseResult& result) {
   const double dt = strip.time.step.value_or(strip.time.step_fraction * result.critical_time_step);
   result.time_step = dt;
   result.sample_interval = dt * static_cast<double>(strip.sample_every);
-  const std::size_t values = receiver_values(model);
+  const ReceiverReader receivers(model, problem.stiffness);
+  const std::size_t values = receivers.values();
   const std::uint64_t steps = count_steps(strip, dt, values), samples = steps / strip.sample_every + 1;
   const double limit = largest_amplification * excitation(strip, static_cast<double>(steps) * dt);
   Leapfrog leapfrog = start(problem, dt);
@@ -58,22 +59,25 @@ void march_verlet(const StripProblem& problem, CaseResult& result) {
   const double still = strip.drive ? std::ceil(strip.drive->duration / dt) + 1.0 : 1.0;
   EnergyAudit audit(still <= static_cast<double>(steps) ? static_cast<std::uint64_t>(still) : steps + 1, steps);
   result.time.reserve(samples);
-  result.signals.reserve(samples * values);
-  const auto record = [&] {
-    result.time.push_back(leapfrog.time());
-    evaluate_receivers(model, leapfrog.displacement(), result.signals);
-  };
-  record();
+  result.time.push_back(0.0);
+  result.signals.resize(samples * values);
+  receivers.evaluate(leapfrog.displacement(), result.signals.data());
   std::size_t good_samples = 1;
   for (std::uint64_t step = 1; step <= steps; ++step) {
-    leapfrog.step();
+    double* row = step % strip.sample_every == 0 ? &result.signals[result.time.size() * values] : nullptr;
+    leapfrog.step([&](int thread) {
+      if (row != nullptr) receivers.evaluate_share(thread, leapfrog.displacement(), row);
+    });
     if (strip.drive) {
       const double value = strip.drive->amplitude * motion(*strip.drive)(leapfrog.time());
       for (const std::uint32_t node : model.left_nodes) {
         leapfrog.prescribe(2 * node + component(strip.drive->wave), value);
       }
     }
-    if (step % strip.sample_every == 0) record();
+    if (row != nullptr) {
+      receivers.evaluate_rest(leapfrog.displacement(), row);
+      result.time.push_back(leapfrog.time());
+    }
     audit.watch(leapfrog);
     if (step % steps_between_checks != 0 && step != steps) continue;
     result.steps = step;

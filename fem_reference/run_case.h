@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem_reference/cases.h"
-#include "fem_reference/kernel/team.h"
+#include "dem/core/team.h"
 #include "fem_reference/strip_model.h"
 
 namespace ddem::fem {

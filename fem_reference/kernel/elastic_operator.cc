@@ -171,7 +171,7 @@ void ElasticOperator::apply(std::span<const double> u, std::span<double> f) cons
 void ElasticOperator::apply_share(std::span<const double> u, std::span<double> f, int thread) const {
   const auto [first, last] = team_->part(f.size(), thread);
   std::fill(f.begin() + static_cast<std::ptrdiff_t>(first), f.begin() + static_cast<std::ptrdiff_t>(last), 0.0);
-  team_->meet();
+  team_->meet(thread);
   for (const std::vector<Block>& blocks : colours_) {
     const auto [first_block, last_block] = team_->part(blocks.size(), thread);
     for (std::size_t b = first_block; b < last_block; ++b) {
@@ -180,11 +180,11 @@ void ElasticOperator::apply_share(std::span<const double> u, std::span<double> f
                             weights_.data()};
       kernel_(data, u.data(), f.data());
     }
-    team_->meet();
+    team_->meet(thread);
   }
   if (processes_ == nullptr) return;
   if (thread == 0) processes_->add_shared(f);
-  team_->meet();
+  team_->meet(thread);
 }
 
 void ElasticOperator::use(Processes& processes) {

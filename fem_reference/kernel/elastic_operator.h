@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
+#include "dem/core/team.h"
 #include "fem_reference/kernel/element_mesh.h"
 #include "fem_reference/kernel/material.h"
 #include "fem_reference/kernel/processes.h"
 #include "fem_reference/kernel/stiffness_kernel.h"
-#include "fem_reference/kernel/team.h"
 
 namespace ddem::fem {
 

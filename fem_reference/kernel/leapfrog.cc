@@ -24,17 +24,21 @@ Leapfrog::Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse
   }
 }
 
-void Leapfrog::step() {
+void Leapfrog::step(const std::function<void(int)>& look) {
   // v_{1/2} takes half a step from v_0: the start is second order, and E is that of the later steps.
   const double kick = steps_done_ == 0 ? 0.5 * time_step_ : time_step_;
   Team& team = stiffness_.team();
   team.run([&](int thread) {
     stiffness_.apply_share(u_, force_, thread);
     const auto [first, last] = team.part(u_.size(), thread);
+    const double drift = time_step_;
+    double *__restrict u = u_.data(), *__restrict v = v_.data();
+    const double *__restrict inverse_mass = inverse_mass_.data(), *__restrict f = force_.data();
     for (std::size_t k = first; k < last; ++k) {
-      v_[k] -= kick * (inverse_mass_[k] * force_[k]);
-      u_[k] += time_step_ * v_[k];
+      v[k] -= kick * (inverse_mass[k] * f[k]);
+      u[k] += drift * v[k];
     }
+    if (look) look(thread);
   });
   ++steps_done_;
 }

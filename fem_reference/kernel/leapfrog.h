@@ -5,6 +5,7 @@
 // Its invariant is E = v_{n+1/2}' M v_{n+1/2}/2 + u_n' K u_{n+1}/2.
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,8 @@ class Leapfrog {
   /// `stiffness`. Throws std::invalid_argument for wrong sizes or a step <= 0.
   Leapfrog(const ElasticOperator& stiffness, std::vector<double> inverse_mass, State start, double time_step);
 
-  void step();
+  /// `look`, if there is one, is called by each thread of the team once its part of the displacement is new.
+  void step(const std::function<void(int)>& look = {});
 
   std::size_t steps_done() const { return steps_done_; }
   double time() const { return static_cast<double>(steps_done_) * time_step_; }

@@ -226,19 +226,6 @@ TEST_P(Kernel, PeriodicNodesAreOneNode) {
   }
 }
 
-TEST(Team, ThrowsWhatAThreadThrowsAndGoesOn) {
-  Team team(3);
-  for (const int thrower : {0, 2}) {
-    const auto job = [&](int thread) {
-      if (thread == thrower) throw std::runtime_error("no");
-    };
-    EXPECT_THROW(team.run(job), std::runtime_error);
-    std::atomic<int> done = 0;
-    team.run([&](int) { ++done; });
-    EXPECT_EQ(done, 3);
-  }
-}
-
 TEST(PlaneMaterial, HasThePlaneModuliOfTheory) {
   // 2K = E/(1-nu), 2G = E/(1+nu) in plane stress; K = lambda + mu of the plane.
   const PlaneMaterial stress = plane_material(7e9, 0.22, 1.0, Plane::stress);

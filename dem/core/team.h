@@ -2,6 +2,7 @@
 // A few threads that take every step together: started once, met several times a step.
 
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -9,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace ddem::fem {
+namespace ddem {
 
 class Team {
  public:
@@ -25,8 +26,8 @@ class Team {
   /// that calls meet() must not throw.
   void run(const std::function<void(int)>& job);
 
-  /// Inside a job: goes on when all threads have come here.
-  void meet();
+  /// Inside a job, by each thread under its number: goes on when all threads have come here.
+  void meet(int thread);
 
   /// The part of `count` things that a thread takes.
   std::pair<std::size_t, std::size_t> part(std::size_t count, int thread) const {
@@ -35,8 +36,15 @@ class Team {
   }
 
  private:
+  /// Where a thread was last seen waiting; a cache line of its own.
+  struct alignas(64) Place {
+    std::atomic<int> core{-1};
+  };
+
   void work(int thread);
   void take_part(int thread);
+  void wait_while(const std::atomic<unsigned>& value, unsigned old, int thread);
+  void leave_shared_core(int thread);
 
   int size_;
   const std::function<void(int)>* job_ = nullptr;
@@ -44,7 +52,8 @@ class Team {
   bool over_ = false;
   std::mutex mutex_;  // guards failure_
   std::exception_ptr failure_;
+  std::vector<Place> places_;
   std::vector<std::thread> threads_;
 };
 
-}  // namespace ddem::fem
+}  // namespace ddem
