@@ -6,7 +6,7 @@
 //
 // Implicit strains solve (V C + S K G) eps = S K C u (theory section 3). With T = (V C)^-1 S K G, whose eigenvalues lie
 // in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of relaxations from zero: a
-// polynomial of T (simulation/strain_polynomial.h), so that the effective stiffness is as symmetric as S K G, and conserves
+// polynomial of T (spectra/strain_polynomial.h), so that the effective stiffness is as symmetric as S K G, and conserves
 // its energy exactly.
 // What a run does not use is not compiled into its kernel (if constexpr on the template parameters).
 

@@ -12,7 +12,7 @@
 #include "dem/simulation/new_contacts.h"
 #include "dem/simulation/simulation.h"
 #include "dem/simulation/stage.h"
-#include "dem/simulation/strain_polynomial.h"
+#include "dem/spectra/strain_polynomial.h"
 
 namespace ddem {
 

@@ -96,6 +96,16 @@ SchemeStiffness SchemeStiffness::converged(const Operators& op) {
   return {op, [inner](const Eigen::VectorXd& stress) -> Eigen::VectorXd { return inner->solve(stress); }};
 }
 
+SchemeStiffness SchemeStiffness::polynomial(const Operators& op, std::vector<double> relaxations) {
+  const auto t = std::make_shared<StrainIteration>(op);
+  return {op, [t, w = std::move(relaxations)](const Eigen::VectorXd& stress) -> Eigen::VectorXd {
+            const Eigen::VectorXd f = t->lower_solve(stress);
+            Eigen::VectorXd strain = Eigen::VectorXd::Zero(f.size());
+            for (const double weight : w) strain += weight * (f - strain - t->apply(strain));
+            return t->upper_solve(strain);
+          }};
+}
+
 SchemeStiffness SchemeStiffness::flip(const Operators& op, const DeformationParameters& d, double radius) {
   const double w = d.relaxation, reach = 2.0 / w - 1.0;
   if (!(radius < reach)) throw std::invalid_argument("the lagged strains do not converge: no flip limit");

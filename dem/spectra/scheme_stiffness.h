@@ -2,6 +2,7 @@
 // The stiffness that a motion meets when the particle strains answer to it: C^T (K - K G Q S K) C in the symbols of
 // statics/operators.h, with eps = Q S K C u. Which Q depends on the scheme and on the motion:
 //   converged strains                Q = (V C_p + S K G)^-1
+//   implicit strains                 Q = p(T) (V C_p)^-1, p the polynomial of strain_polynomial.h
 //   lagged, a motion that alternates from step to step (the flip, z = -1): eps_n = -eps_{n-1} closes the recurrence
 //   eps_{m+1} = R eps_m + w H u, R = 1 - w - w T, T = (V C_p)^-1 S K G, over the s evaluations of a step, hence
 //     Q = g(T) (V C_p)^-1,  g(b) = (1 - 2 r^(s-1) / (1 + r^s)) / (1 + b),  r = 1 - w - w b.
@@ -12,6 +13,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <functional>
+#include <vector>
 
 #include "dem/statics/operators.h"
 #include "dem/statics/static_solver.h"
@@ -22,6 +24,9 @@ class SchemeStiffness {
  public:
   /// Plain DEM too, where the operators have no strains.
   static SchemeStiffness converged(const Operators& operators);
+
+  /// `relaxations` as strain_relaxations() gives them.
+  static SchemeStiffness polynomial(const Operators& operators, std::vector<double> relaxations);
 
   /// `radius` is the spectral radius of T, and must be below 2/w - 1: throws std::invalid_argument otherwise.
   static SchemeStiffness flip(const Operators& operators, const DeformationParameters& deformation, double radius);

@@ -5,6 +5,8 @@
 
 #include "dem/spectra/extreme_eigenvalues.h"
 #include "dem/spectra/scheme_stiffness.h"
+#include "dem/spectra/strain_polynomial.h"
+#include "dem/spectra/strain_spectrum.h"
 
 namespace ddem {
 namespace {
@@ -42,6 +44,14 @@ double largest_converged_frequency(const Assembly& a, const ContactParameters& c
   return largest_frequency_of(op, SchemeStiffness::converged(op), held, "critical time step with converged strains");
 }
 
+double largest_implicit_frequency(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
+                                  const HeldDofs& held) {
+  if (deformation.solver != StrainSolver::polynomial) return largest_converged_frequency(a, contact, deformation, held);
+  const Operators op = make_operators(a, contact, deformation);
+  const auto relaxations = strain_relaxations(strain_spectrum(a, contact, deformation), deformation.tolerance);
+  return largest_frequency_of(op, SchemeStiffness::polynomial(op, relaxations), held, "critical time step with implicit strains");
+}
+
 double fixed_point_radius(const Assembly& a, const ContactParameters& contact,
                           const DeformationParameters& deformation) {
   return spectral_radius(StrainIteration(make_operators(a, contact, deformation)));
@@ -57,7 +67,7 @@ CriticalStep critical_step(const Assembly& a, const ContactParameters& contact, 
                            const HeldDofs& held) {
   if (!deformation.active()) return {StepBound::oscillation, 2.0 / largest_frequency(a, contact, held)};
   if (deformation.scheme != Scheme::lagged) {
-    return {StepBound::oscillation, 2.0 / largest_converged_frequency(a, contact, deformation, held)};
+    return {StepBound::oscillation, 2.0 / largest_implicit_frequency(a, contact, deformation, held)};
   }
   const double radius = fixed_point_radius(a, contact, deformation);
   if (radius >= 2.0 / deformation.relaxation - 1.0) return {StepBound::fixed_point, std::nullopt};

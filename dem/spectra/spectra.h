@@ -18,6 +18,11 @@ double largest_frequency(const Assembly& assembly, const ContactParameters& cont
 double largest_converged_frequency(const Assembly& assembly, const ContactParameters& contact,
                                    const DeformationParameters& deformation, const HeldDofs& held);
 
+/// The same with strains as the implicit scheme finds them: fast motions meet a stiffness up to 1 % off that of converged
+/// ones (deformation.tolerance; strain_polynomial.h).
+double largest_implicit_frequency(const Assembly& assembly, const ContactParameters& contact,
+                                  const DeformationParameters& deformation, const HeldDofs& held);
+
 /// Spectral radius of K B: the lagged strains converge only where it is below 2/w - 1, w the relaxation (theory section
 /// 3). It is proportional to k_n/E_p. K B has the spectrum of (V C)^-1 S K G, symmetric for every correction.
 double fixed_point_radius(const Assembly& assembly, const ContactParameters& contact,
@@ -32,7 +37,7 @@ double flip_limit_step(const Assembly& assembly, const ContactParameters& contac
 
 /// What bounds the time step of a scheme.
 enum class StepBound {
-  oscillation,  ///< 2/omega_max of rigid discs or of converged strains
+  oscillation,  ///< 2/omega_max of rigid discs or of implicit strains
   flip,         ///< flip_limit_step
   fixed_point,  ///< no step: the lagged strains do not converge
   feeding       ///< no step: an even number of evaluations feeds waves whose strains overshoot

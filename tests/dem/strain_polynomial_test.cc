@@ -1,6 +1,6 @@
 // The polynomial of the implicit strains: its error on the whole spectrum, from the iteration itself, against the bound.
 
-#include "dem/simulation/strain_polynomial.h"
+#include "dem/spectra/strain_polynomial.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "dem/kernel/sliced_bonds.h"
 #include "dem/simulation/conjugate_gradients.h"
 #include "dem/simulation/simulation.h"
-#include "dem/simulation/strain_polynomial.h"
+#include "dem/spectra/strain_polynomial.h"
 #include "dem/spectra/spectra.h"
 #include "dem/statics/operators.h"
 #include "tests/support/assemblies.h"

@@ -1,4 +1,4 @@
-#include "dem/simulation/strain_polynomial.h"
+#include "dem/spectra/strain_polynomial.h"
 
 #include <algorithm>
 #include <cmath>
