@@ -24,7 +24,7 @@ enum class Shape { column, cosine, gaussian, standing };
 enum class Field { displacement, velocity };
 enum class End { free, fixed_x, fixed };
 /// How the receivers' signals follow from the states of the leapfrog: they are the states, with the error of its
-/// step, or a filter of them that is exact in time (kernel/time_filter.h).
+/// step, or a filter of them that is exact in time (dem/core/time_filter.h).
 enum class Integrator { verlet, exact };
 
 /// Displacement at rest, or velocity without displacement, at t = 0: its x (longitudinal) or y component (shear) as

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "dem/core/time_filter.h"
 #include "fem_reference/cases.h"
 #include "fem_reference/kernel/elastic_operator.h"
-#include "fem_reference/kernel/time_filter.h"
 #include "fem_reference/strip_model.h"
 
 namespace ddem::fem {

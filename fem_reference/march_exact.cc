@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "dem/core/time_filter.h"
 #include "fem_reference/excitation.h"
-#include "fem_reference/kernel/time_filter.h"
 #include "fem_reference/march.h"
 #include "fem_reference/receivers.h"
 #include "fem_reference/sampling.h"

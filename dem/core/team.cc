@@ -48,16 +48,10 @@ void Team::take_part(int thread) {
   }
 }
 
-void Team::meet(int thread) {
-  if (size_ == 1) return;
-  const unsigned round = round_.load(std::memory_order_acquire);
-  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == static_cast<unsigned>(size_)) {
-    arrived_.store(0, std::memory_order_relaxed);
-    round_.store(round + 1, std::memory_order_release);
-    round_.notify_all();
-  } else {
-    wait_while(round_, round, thread);
-  }
+void Team::let_go(unsigned round) {
+  arrived_.store(0, std::memory_order_relaxed);
+  round_.store(round + 1, std::memory_order_release);
+  if (size_ > 1) round_.notify_all();
 }
 
 void Team::work(int thread) {

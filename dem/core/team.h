@@ -27,7 +27,21 @@ class Team {
   void run(const std::function<void(int)>& job);
 
   /// Inside a job, by each thread under its number: goes on when all threads have come here.
-  void meet(int thread);
+  void meet(int thread) {
+    meet(thread, [] {});
+  }
+
+  /// The same, and the last one to come calls finish(), which must not throw, before all go on.
+  template <typename Finish>
+  void meet(int thread, Finish&& finish) {
+    const unsigned round = round_.load(std::memory_order_acquire);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 < static_cast<unsigned>(size_)) {
+      wait_while(round_, round, thread);
+      return;
+    }
+    finish();
+    let_go(round);
+  }
 
   /// The part of `count` things that a thread takes.
   std::pair<std::size_t, std::size_t> part(std::size_t count, int thread) const {
@@ -43,6 +57,7 @@ class Team {
 
   void work(int thread);
   void take_part(int thread);
+  void let_go(unsigned round);
   void wait_while(const std::atomic<unsigned>& value, unsigned old, int thread);
   void leave_shared_core(int thread);
 

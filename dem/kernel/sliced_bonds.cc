@@ -7,51 +7,51 @@
 namespace ddem {
 namespace {
 
-struct HalfBond {
-  int other;
-  double nx, ny, stretch, length, stiffness;
-};
-
-std::vector<std::vector<HalfBond>> half_bonds(const Bonds& b, const std::vector<int>& position,
-                                              const std::vector<double>& stiffness) {
-  std::vector<std::vector<HalfBond>> of_disc(position.size());
-  for (std::size_t c = 0; c < b.size(); ++c) {
-    const int i = position[b.i[c]], j = position[b.j[c]];
-    const double k_n = stiffness.empty() ? 0.0 : stiffness[c];
-    of_disc[i].push_back({j, b.nx[c], b.ny[c], b.stretch[c], b.length[c], k_n});
-    of_disc[j].push_back({i, -b.nx[c], -b.ny[c], b.stretch[c], b.length[c], k_n});
+/// Rows of the slices, from the bonds of every place.
+void lay_rows(const std::vector<std::int32_t>& bonds_at, SlicedBonds& s) {
+  s.row_begin.assign(static_cast<std::size_t>(s.slices) + 1, 0);
+  for (int slice = 0; slice < s.slices; ++slice) {
+    const auto first = bonds_at.begin() + static_cast<std::ptrdiff_t>(slice) * kLanes;
+    s.row_begin[slice + 1] = s.row_begin[slice] + *std::max_element(first, first + kLanes);
   }
-  return of_disc;
+}
+
+/// Every place bonded to itself, without an arm.
+void fill_up(bool stiffness, bool lengths, SlicedBonds& s) {
+  const std::size_t half_bonds = static_cast<std::size_t>(s.row_begin.back()) * kLanes;
+  s.neighbour.resize(half_bonds);
+  for (int slice = 0; slice < s.slices; ++slice) {
+    for (std::int32_t k = s.row_begin[slice] * kLanes; k < s.row_begin[slice + 1] * kLanes; ++k) s.neighbour[k] = slice * kLanes + k % kLanes;
+  }
+  s.nx.assign(half_bonds, 1.0);
+  s.ny.assign(half_bonds, 0.0);
+  s.stretch.assign(half_bonds, 0.0);
+  if (lengths) s.length.assign(half_bonds, 1.0);
+  if (stiffness) s.stiffness.assign(half_bonds, 0.0);
 }
 
 }  // namespace
 
-SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths) {
-  const std::vector<std::vector<HalfBond>> of_disc = half_bonds(bonds, position, stiffness);
-  const int discs = static_cast<int>(position.size());
+SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths) {
   SlicedBonds s;
-  s.slices = (discs + kLanes - 1) / kLanes;
-  s.row_begin.push_back(0);
-  for (int slice = 0; slice < s.slices; ++slice) {
-    std::size_t rows = 0;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int d = slice * kLanes + lane;
-      if (d < discs) rows = std::max(rows, of_disc[d].size());
-    }
-    for (std::size_t row = 0; row < rows; ++row) {
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int d = slice * kLanes + lane;
-        const bool real = d < discs && row < of_disc[d].size();
-        const HalfBond h = real ? of_disc[d][row] : HalfBond{d, 1.0, 0.0, 0.0, 1.0, 0.0};
-        s.neighbour.push_back(h.other);
-        s.nx.push_back(h.nx);
-        s.ny.push_back(h.ny);
-        s.stretch.push_back(h.stretch);
-        if (lengths) s.length.push_back(h.length);
-        if (!stiffness.empty()) s.stiffness.push_back(h.stiffness);
-      }
-    }
-    s.row_begin.push_back(static_cast<std::int32_t>(s.rows()));
+  s.slices = (static_cast<int>(position.size()) + kLanes - 1) / kLanes;
+  std::vector<std::int32_t> bonds_at(static_cast<std::size_t>(s.slices) * kLanes, 0);
+  for (std::size_t c = 0; c < b.size(); ++c) ++bonds_at[position[b.i[c]]], ++bonds_at[position[b.j[c]]];
+  lay_rows(bonds_at, s);
+  fill_up(!stiffness.empty(), lengths, s);
+  std::fill(bonds_at.begin(), bonds_at.end(), 0);
+  const auto put = [&](std::size_t c, int at, int other, double sign) {
+    const std::size_t row = static_cast<std::size_t>(s.row_begin[at / kLanes] + bonds_at[at]++), k = row * kLanes + static_cast<std::size_t>(at % kLanes);
+    s.neighbour[k] = other;
+    s.nx[k] = sign * b.nx[c], s.ny[k] = sign * b.ny[c];
+    s.stretch[k] = b.stretch[c];
+    if (lengths) s.length[k] = b.length[c];
+    if (!stiffness.empty()) s.stiffness[k] = stiffness[c];
+  };
+  for (std::size_t c = 0; c < b.size(); ++c) {
+    const int i = position[b.i[c]], j = position[b.j[c]];
+    put(c, i, j, 1.0);
+    put(c, j, i, -1.0);
   }
   return s;
 }

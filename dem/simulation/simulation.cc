@@ -1,14 +1,13 @@
 #include "dem/simulation/simulation.h"
 
 #include <algorithm>
-#include <barrier>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <numbers>
 #include <stdexcept>
-#include <thread>
 
+#include "dem/core/team.h"
 #include "dem/simulation/recorders.h"
 #include "dem/simulation/stepper.h"
 #include "dem/spectra/spectra.h"
@@ -17,35 +16,8 @@ namespace ddem {
 namespace {
 
 constexpr long kCheckEvery = 16;     // steps between looks at divergence
+constexpr std::size_t kLeastShare = 2000;  // discs a thread: a sweep of them takes longer than to meet at its end
 constexpr double kDivergence = 1e3;  // times the largest displacement that the load can have put in
-
-void check_input(const Assembly& a, const SimulationInput& in) {
-  if (!(in.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
-  if (in.steps < 0) throw std::invalid_argument("the number of steps must not be negative");
-  if (in.energy_samples < 1 || in.snapshots < 0) throw std::invalid_argument("energy_samples must be at least 1, snapshots not negative");
-  if (in.sample_every < 1) throw std::invalid_argument("sample_every must be at least 1");
-  const DeformationParameters& deformation = in.deformation;
-  if (deformation.evaluations < 1) throw std::invalid_argument("evaluations must be at least 1");
-  if (!(deformation.relaxation > 0.0 && deformation.relaxation <= 1.0)) throw std::invalid_argument("relaxation must be in (0, 1]");
-  if (deformation.scheme == Scheme::implicit && in.contact.kinematics == Kinematics::nonlinear) {
-    throw std::invalid_argument("implicit particle strains need linear kinematics");
-  }
-  if (in.threads < 1) throw std::invalid_argument("threads must be at least 1");
-  for (const auto* v : {&in.initial.ux, &in.initial.uy, &in.initial.theta, &in.initial.vx, &in.initial.vy, &in.initial.omega}) {
-    if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("an initial state has not one value a disc");
-  }
-  for (const auto* v : {&in.held.x, &in.held.y, &in.held.theta}) {
-    if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("a mask of held discs has not one value a disc");
-  }
-  const auto check_discs = [&](const std::vector<int>& discs) {
-    if (discs.empty()) throw std::invalid_argument("a receiver or a driven edge has no disc");
-    for (const int d : discs) {
-      if (d < 0 || d >= static_cast<int>(a.size())) throw std::invalid_argument("disc index out of range");
-    }
-  };
-  for (const Receiver& r : in.receivers) check_discs(r.discs);
-  if (in.drive) check_discs(in.drive->discs);
-}
 
 double largest(const std::vector<double>& v) {
   double m = 0.0;
@@ -117,37 +89,25 @@ class Overseer {
   long report_every_;
 };
 
-void run_one_thread(Stepper& stepper, Overseer& overseer) {
-  do {
-    stepper.advance(0, stepper.slices());
-  } while (overseer.finish_stage());
-}
-
-/// Every thread owns a fixed range of slices; the last one to arrive at the barrier finishes the stage. What that throws is
-/// thrown here.
-void run_threads(Stepper& stepper, Overseer& overseer) {
+/// Every thread sweeps a range of slices; the last one to be done finishes the stage. What that throws is thrown here.
+void run(Stepper& stepper, Overseer& overseer) {
   bool go_on = true;
   std::exception_ptr failure;
-  std::barrier barrier(stepper.threads(), [&]() noexcept {
+  const auto finish = [&] {
     try {
       go_on = overseer.finish_stage();
     } catch (...) {
       failure = std::current_exception();
       go_on = false;
     }
-  });
-  const auto work = [&](int id) {
-    const int begin = stepper.range_begin(id), end = stepper.range_begin(id + 1);
-    do {
-      stepper.advance(begin, end);
-      barrier.arrive_and_wait();
-    } while (go_on);
   };
-  {
-    std::vector<std::jthread> team;
-    for (int id = 1; id < stepper.threads(); ++id) team.emplace_back(work, id);
-    work(0);
-  }
+  Team team(stepper.threads());
+  team.run([&](int id) {
+    do {
+      stepper.advance(stepper.range_begin(id), stepper.range_begin(id + 1));
+      team.meet(id, finish);
+    } while (go_on);
+  });
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -159,19 +119,43 @@ double EdgeDrive::displacement(double time) const {
   return amplitude * s * s;
 }
 
+void check_input(const Assembly& a, const SimulationInput& in) {
+  if (!(in.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
+  if (in.steps < 0) throw std::invalid_argument("the number of steps must not be negative");
+  if (in.energy_samples < 1 || in.snapshots < 0) throw std::invalid_argument("energy_samples must be at least 1, snapshots not negative");
+  if (in.sample_every < 1) throw std::invalid_argument("sample_every must be at least 1");
+  const DeformationParameters& deformation = in.deformation;
+  if (deformation.evaluations < 1) throw std::invalid_argument("evaluations must be at least 1");
+  if (!(deformation.relaxation > 0.0 && deformation.relaxation <= 1.0)) throw std::invalid_argument("relaxation must be in (0, 1]");
+  if (deformation.scheme == Scheme::implicit && in.contact.kinematics == Kinematics::nonlinear) {
+    throw std::invalid_argument("implicit particle strains need linear kinematics");
+  }
+  if (in.threads < 1) throw std::invalid_argument("threads must be at least 1");
+  for (const auto* v : {&in.initial.ux, &in.initial.uy, &in.initial.theta, &in.initial.vx, &in.initial.vy, &in.initial.omega}) {
+    if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("an initial state has not one value a disc");
+  }
+  for (const auto* v : {&in.held.x, &in.held.y, &in.held.theta}) {
+    if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("a mask of held discs has not one value a disc");
+  }
+  const auto check_discs = [&](const std::vector<int>& discs) {
+    if (discs.empty()) throw std::invalid_argument("a receiver or a driven edge has no disc");
+    for (const int d : discs) {
+      if (d < 0 || d >= static_cast<int>(a.size())) throw std::invalid_argument("disc index out of range");
+    }
+  };
+  for (const Receiver& r : in.receivers) check_discs(r.discs);
+  if (in.drive) check_discs(in.drive->discs);
+}
+
+int worthwhile_threads(int threads, std::size_t discs) { return std::max(1, std::min(threads, static_cast<int>(discs / kLeastShare))); }
+
 SimulationResult simulate(const Assembly& assembly, const SimulationInput& input) {
   check_input(assembly, input);
   SimulationResult result;
   Stepper stepper(assembly, input, best_instruction_set());
   Overseer overseer(assembly, input, stepper, result);
   const auto start = std::chrono::steady_clock::now();
-  if (input.steps > 0) {
-    if (stepper.threads() == 1) {
-      run_one_thread(stepper, overseer);
-    } else {
-      run_threads(stepper, overseer);
-    }
-  }
+  if (input.steps > 0) run(stepper, overseer);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   overseer.finish();
   return result;

@@ -55,6 +55,7 @@ struct SimulationInput {
   int energy_samples = 50;  ///< about so many over the run, and the last step
   int snapshots = 0;        ///< so many over the run, equally spaced, the last at its end
   int threads = 1;
+  bool follow_front = true;  ///< no work where nothing can have moved yet; without it the same bits, at more work
   ContactWatch new_contacts = ContactWatch::off;  ///< without friction; see ContactWatch
   /// Called now and then with the fraction done; return false to stop.
   std::function<bool(double)> on_progress;
@@ -118,6 +119,12 @@ struct SimulationResult {
 };
 
 /// Throws std::invalid_argument on a non-positive time step, negative steps, wrong sizes or indices.
+void check_input(const Assembly& assembly, const SimulationInput& input);
+
+/// As many of `threads` as make a run of so many discs faster: between two sweeps they wait for each other.
+int worthwhile_threads(int threads, std::size_t discs);
+
+/// Throws as check_input().
 SimulationResult simulate(const Assembly& assembly, const SimulationInput& input);
 
 }  // namespace ddem

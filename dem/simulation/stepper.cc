@@ -6,6 +6,7 @@
 
 #include "dem/assembly/bond_stiffness.h"
 #include "dem/assembly/particle_volume.h"
+#include "dem/simulation/front.h"
 
 namespace ddem {
 namespace {
@@ -26,7 +27,6 @@ bool held(const std::vector<std::uint8_t>& mask, std::size_t disc) { return !mas
 
 Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet isa)
     : position_(locality_order(a.packing)),
-      radius_(a.packing.radius),
       discs_(a.size()),
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
@@ -39,8 +39,8 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
                        input.contact.kinematics == Kinematics::nonlinear);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
-  const int threads = std::min(input.threads, std::max(1, bonds_.slices));
-  for (int k = 0; k <= threads; ++k) range_begin_.push_back(static_cast<int>(static_cast<long>(bonds_.slices) * k / threads));
+  range_begin_.resize(static_cast<std::size_t>(std::min(input.threads, std::max(1, bonds_.slices))) + 1);
+  share(bonds_.slices);
   size_arrays(input);
   set_parameters(a, input);
   if (deformable_) prepare_strains(a, input);
@@ -52,6 +52,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform, watch_.has_value()}, isa);
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
+  if (input.follow_front) find_fronts();
   start_leapfrog();
   begin_step();
 }
@@ -82,12 +83,13 @@ void Stepper::set_parameters(const Assembly& a, const SimulationInput& input) {
     const int p = position_[d];
     kick_x_[p] = held(input.held.x, d) ? 0.0 : dt / a.mass[d];
     kick_y_[p] = held(input.held.y, d) ? 0.0 : dt / a.mass[d];
-    if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt * radius_[d] * radius_[d] / a.inertia[d];
+    if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt * radius(static_cast<int>(d)) * radius(static_cast<int>(d)) / a.inertia[d];
   }
   if (drive_) {
     auto& kick = drive_->direction == Direction::x ? kick_x_ : kick_y_;
     for (const int d : drive_->discs) kick[position_[d]] = 0.0;
   }
+  if (kick_y_ == kick_x_) kick_y_ = AlignedVector<double>();
   data_.dt = dt;
   data_.normal_stiffness = input.contact.normal_stiffness;
   data_.shear_stiffness = input.contact.shear_stiffness();
@@ -159,6 +161,31 @@ void Stepper::begin_stage(Stage stage) {
     case Stage::turn: due_ = kernels_.turn; break;
     case Stage::motion: due_ = move_; break;
   }
+  if (range_begin_.back() < bonds_.slices || sweep_ == 0) follow_front();
+}
+
+void Stepper::find_fronts() {
+  std::vector<char> moving(padded_, 0);
+  for (std::size_t p = 0; p < padded_; ++p) {
+    const double* u = motion_.data() + kQuad * p;
+    moving[p] = u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0 || vx_[p] != 0.0 || vy_[p] != 0.0 || (rotation_ && omega_[p] != 0.0);
+  }
+  if (drive_) {
+    for (const int d : drive_->discs) moving[position_[d]] = 1;
+  }
+  fronts_ = motion_fronts(bonds_, moving);
+}
+
+/// Before every sweep. A new contact passes motion on where no bond does.
+void Stepper::follow_front() {
+  const bool everywhere = fronts_.empty() || (watch_ && !watch_->closed().empty());
+  share(everywhere ? bonds_.slices : fronts_[std::min(sweep_, fronts_.size() - 1)]);
+  ++sweep_;
+}
+
+void Stepper::share(int front) {
+  const auto threads = static_cast<long>(range_begin_.size()) - 1;
+  for (long k = 0; k <= threads; ++k) range_begin_[k] = static_cast<int>(front * k / threads);
 }
 
 void Stepper::finish_strain_stage() {
@@ -191,7 +218,7 @@ void Stepper::load(const InitialState& s) {
     for (std::size_t d = 0; d < from.size(); ++d) to[static_cast<std::size_t>(stride * position_[d] + offset)] = from[d];
   };
   const auto times_radius = [this](std::vector<double> values) {
-    for (std::size_t d = 0; d < values.size(); ++d) values[d] *= radius_[d];
+    for (std::size_t d = 0; d < values.size(); ++d) values[d] *= radius(static_cast<int>(d));
     return values;
   };
   copy(s.ux, motion_, kQuad, 0), copy(s.uy, motion_, kQuad, 1);
@@ -259,7 +286,7 @@ void Stepper::bind() {
   if (gradients_) gradients_->bind(d);
   d.motion = motion_.data(), d.motion_next = motion_next_.data();
   d.vx = vx_.data(), d.vy = vy_.data(), d.omega = omega_.data();
-  d.kick_x = kick_x_.data(), d.kick_y = kick_y_.data(), d.kick_theta = kick_theta_.data();
+  d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data(), d.kick_theta = kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
   d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
@@ -285,7 +312,7 @@ std::vector<double> Stepper::in_order(const double* values, int stride) const {
 
 std::vector<double> Stepper::over_radius(const double* values, int stride) const {
   std::vector<double> ordered = in_order(values, stride);
-  for (std::size_t d = 0; d < discs_; ++d) ordered[d] /= radius_[d];
+  for (std::size_t d = 0; d < discs_; ++d) ordered[d] /= radius(static_cast<int>(d));
   return ordered;
 }
 

@@ -22,17 +22,20 @@ class Stepper {
 
   /// A step is a row of stages: strains to be found first, then the motion. Works on the slices [begin, end) of the
   /// stage that is due; several threads may do this on disjoint ranges, then one of them calls finish_stage.
-  void advance(int begin, int end) { due_(data_, begin, end); }
+  void advance(int begin, int end) {
+    if (begin < end) due_(data_, begin, end);
+  }
   /// Exchanges what the stage wrote; after the last one the driven edge is imposed at t_{n+1}. True when a step is done.
   bool finish_stage();
 
   int slices() const { return bonds_.slices; }
-  /// Threads that share the slices, at most one a slice: thread k works on [range_begin(k), range_begin(k + 1)).
+  /// Threads that share the slices up to the front of the motion: thread k works on [range_begin(k), range_begin(k + 1)),
+  /// which may change with every stage, and be empty.
   int threads() const { return static_cast<int>(range_begin_.size()) - 1; }
   int range_begin(int thread) const { return range_begin_[thread]; }
   long step() const { return step_number_; }
   int place_of(int disc) const { return position_[disc]; }
-  double radius(int disc) const { return radius_[disc]; }
+  double radius(int disc) const { return assembly_.packing.radius[disc]; }
   const std::vector<int>& order() const { return position_; }
 
   const StepData& data() const { return data_; }
@@ -68,6 +71,9 @@ class Stepper {
   void begin_stage(Stage stage);
   void finish_strain_stage();
   void begin_strains();
+  void find_fronts();
+  void follow_front();
+  void share(int front);
   void relax();
   // New contacts, stepper_contacts.cc.
   void look_for_contacts();
@@ -77,15 +83,16 @@ class Stepper {
   void add_strain(const NewContact& contact, double force, double weight, AlignedVector<double>& to) const;
   void push_from_rest(double* vx, double* vy) const;
   void finish_contacts();
+  double largest_of(const AlignedVector<double>& noted) const;
 
   SlicedBonds bonds_;
   std::vector<int> position_;
-  std::vector<double> radius_;  // in the order of the assembly
   std::size_t discs_ = 0, padded_ = 0;
   bool rotation_ = false, deformable_ = false;
   std::optional<EdgeDrive> drive_;
   AlignedVector<double> motion_, motion_next_, strain_, strain_next_, source_;  // kQuad a disc
-  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_, rigid_fx_, rigid_fy_, rigid_moment_;
+  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_;  // kick_y_ empty where it would be kick_x_
+  AlignedVector<double> rigid_fx_, rigid_fy_, rigid_moment_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
   StepData data_{};
   StepKernels kernels_;
@@ -101,6 +108,8 @@ class Stepper {
   const DeformationParameters deformation_;
   std::optional<NewContacts> watch_;
   std::vector<int> range_begin_;  // first slice of each thread, and the end
+  std::vector<int> fronts_;       // by sweep (front.h)
+  std::size_t sweep_ = 0;
   AlignedVector<double> fastest_, most_strained_;
   double largest_strain_ = 0.0;
   std::vector<NewContact> in_use_, assumed_;

@@ -89,10 +89,7 @@ void Stepper::add_contact_strains() {
     }
   }
   if (stage_ == Stage::source) return;
-  double most = 0.0;
-  for (const int begin : range_begin_) {
-    if (begin < bonds_.slices) most = std::max(most, most_strained_[begin]);
-  }
+  double most = largest_of(most_strained_);
   for (const NewContact& c : pushing) {
     for (const int p : {c.i, c.j}) {
       most = std::max(most, square_of_strain(strain_next_.data(), p));
@@ -101,12 +98,21 @@ void Stepper::add_contact_strains() {
   largest_strain_ = std::sqrt(2.0 * most);
 }
 
+/// Every thread that swept has noted at the first of its slices.
+double Stepper::largest_of(const AlignedVector<double>& noted) const {
+  double most = 0.0;
+  for (int k = 0; k < threads(); ++k) {
+    if (range_begin_[k] < range_begin_[k + 1]) most = std::max(most, noted[range_begin_[k]]);
+  }
+  return most;
+}
+
 /// The kick of the closed contacts on velocities that start from zero.
 void Stepper::push_from_rest(double* vx, double* vy) const {
   for (const NewContact& c : watch_->closed()) {
     const double fx = c.force() * c.nx, fy = c.force() * c.ny;
-    vx[c.i] += kick_x_[c.i] * fx, vy[c.i] += kick_y_[c.i] * fy;
-    vx[c.j] -= kick_x_[c.j] * fx, vy[c.j] -= kick_y_[c.j] * fy;
+    vx[c.i] += data_.kick_x[c.i] * fx, vy[c.i] += data_.kick_y[c.i] * fy;
+    vx[c.j] -= data_.kick_x[c.j] * fx, vy[c.j] -= data_.kick_y[c.j] * fy;
   }
 }
 
@@ -114,14 +120,11 @@ void Stepper::push_from_rest(double* vx, double* vy) const {
 void Stepper::finish_contacts() {
   in_use_ = watch_->closed();
   if (deformable_ && !implicit_) add_contact_strains();
-  double fastest = 0.0;
-  for (const int begin : range_begin_) {
-    if (begin < bonds_.slices) fastest = std::max(fastest, fastest_[begin]);
-  }
+  double fastest = largest_of(fastest_);
   const auto push = [&](int p, double fx, double fy) {
     double* u = motion_next_.data() + static_cast<std::ptrdiff_t>(kQuad) * p;
-    vx_[p] += kick_x_[p] * fx, vy_[p] += kick_y_[p] * fy;
-    u[0] += data_.dt * (kick_x_[p] * fx), u[1] += data_.dt * (kick_y_[p] * fy);
+    vx_[p] += data_.kick_x[p] * fx, vy_[p] += data_.kick_y[p] * fy;
+    u[0] += data_.dt * (data_.kick_x[p] * fx), u[1] += data_.dt * (data_.kick_y[p] * fy);
     fastest = std::max(fastest, vx_[p] * vx_[p] + vy_[p] * vy_[p]);
   };
   for (const NewContact& c : in_use_) {

@@ -1,12 +1,11 @@
 #include "harness/bench/kernels.h"
 
 #include <algorithm>
-#include <barrier>
 #include <chrono>
 #include <limits>
 #include <memory>
-#include <thread>
 
+#include "dem/core/team.h"
 #include "dem/simulation/stepper.h"
 #include "harness/bench/lattice.h"
 
@@ -42,32 +41,26 @@ std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly
   return all;
 }
 
-double seconds_of(Stepper& stepper, long steps, int threads) {
+double seconds_of(Stepper& stepper, long steps, Team& team) {
   long left = steps;
-  std::barrier barrier(threads, [&]() noexcept { left -= stepper.finish_stage() ? 1 : 0; });
-  const auto work = [&](int id) {
-    const int begin = static_cast<int>(static_cast<long>(stepper.slices()) * id / threads);
-    const int end = static_cast<int>(static_cast<long>(stepper.slices()) * (id + 1) / threads);
-    while (left > 0) {
-      stepper.advance(begin, end);
-      barrier.arrive_and_wait();
-    }
-  };
   const auto start = std::chrono::steady_clock::now();
-  {
-    std::vector<std::jthread> team;
-    for (int id = 1; id < threads; ++id) team.emplace_back(work, id);
-    work(0);
-  }
+  team.run([&](int thread) {
+    const auto [begin, end] = team.part(static_cast<std::size_t>(stepper.slices()), thread);
+    while (left > 0) {
+      stepper.advance(static_cast<int>(begin), static_cast<int>(end));
+      team.meet(thread, [&] { left -= stepper.finish_stage() ? 1 : 0; });
+    }
+  });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// seconds[competitor][round], after a round that is not counted.
 std::vector<std::vector<double>> take_turns(std::vector<Competitor>& all, const KernelPlan& plan, int threads) {
   std::vector<std::vector<double>> seconds(all.size());
+  Team team(threads);
   for (int round = -1; round < plan.rounds; ++round) {
     for (std::size_t c = 0; c < all.size(); ++c) {
-      const double time = seconds_of(*all[c].stepper, plan.steps, threads);
+      const double time = seconds_of(*all[c].stepper, plan.steps, team);
       if (round >= 0) seconds[c].push_back(time);
     }
   }

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "dem/assembly/rattlers.h"
+#include "dem/simulation/exact.h"
 #include "dem/spectra/spectra.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr long kMostSteps = 2'000'000'000;
 constexpr double kMostSignalBytes = 4e9;
+constexpr double kMostFilterWork = 1e12;  // multiplications: minutes
 
 double choose_step(const Scene& scene, double critical) {
   const Time& time = scene.time;
@@ -45,7 +47,8 @@ void check_signal_size(const Scene& scene, const DemRun& run, double steps) {
   }
 }
 
-long choose_steps(const Scene& scene, const DemRun& run) {
+/// Of `step`, which verlet marches with.
+long choose_steps(const Scene& scene, const DemRun& run, double step) {
   double seconds = 0.0;
   if (const auto* steps = std::get_if<EndSteps>(&scene.time.end)) return static_cast<long>(steps->steps);
   if (const auto* end = std::get_if<EndTime>(&scene.time.end)) {
@@ -55,12 +58,14 @@ long choose_steps(const Scene& scene, const DemRun& run) {
       throw InputError(scene_problem(scene, "time.end", "without pairs of probes and a pulse there is no last peak to wait for",
                                      "give time.end or time.steps"));
     }
-    // The kinematic estimate is up to 25 % too fast.
-    for (const Probe& p : run.layout.probes) seconds = std::max(seconds, time_of_passage(run.context, p.x, 0.45));
+    // The kinematic estimate is up to 25 % too fast. After its window no probe is looked at.
+    for (const Probe& p : run.layout.probes) {
+      seconds = std::max(seconds, std::min(time_of_passage(run.context, p.x, 0.45), causal_window(run.context, p.x).end));
+    }
   }
-  const double steps = std::ceil(seconds / run.time_step);
+  const double steps = std::ceil(seconds / step);
   if (!(steps <= static_cast<double>(kMostSteps))) {
-    throw InputError(scene_problem(scene, "time.end", fmt::format("{:.6g} s take {:.3g} steps of {:.3g} s", seconds, steps, run.time_step),
+    throw InputError(scene_problem(scene, "time.end", fmt::format("{:.6g} s take {:.3g} steps of {:.3g} s", seconds, steps, step),
                                    fmt::format("at most {} steps are allowed", kMostSteps)));
   }
   return static_cast<long>(steps);
@@ -118,6 +123,26 @@ void warn_of_instability(const Scene& scene, DemRun& run) {
   }
 }
 
+/// `in` as for verlet with the step from one sample to the next; its time step is that of the march.
+SimulationResult run_exact(const Scene& scene, const DemRun& run, const SimulationInput& in) {
+  if (in.snapshots > 0) {
+    throw InputError(scene_problem(scene, "time.integrator", "snapshots of all discs are not exact in time: the probes' signals alone are",
+                                   "leave --snapshots out, or use integrator = \"verlet\""));
+  }
+  const Sampling sampling{run.sample_interval, static_cast<std::size_t>(in.steps / in.sample_every + 1)};
+  if (const double work = filter_work(in, sampling); !(work <= kMostFilterWork)) {
+    throw InputError(scene_problem(scene, "time.integrator", fmt::format("{:.3g} exact samples take {:.3g} multiplications", static_cast<double>(sampling.samples), work),
+                                   fmt::format("raise time.sample_every or end earlier (at most {:.3g}), or use integrator = \"verlet\"", kMostFilterWork)));
+  }
+  SimulationResult result = simulate_exact(run.assembly, in, sampling);
+  if (const auto& c = result.new_contacts) {
+    throw InputError(scene_problem(scene, "time.integrator",
+                                   fmt::format("discs that are not bonded come to touch, first at {:.6g} s: the motion is not linear", static_cast<double>(c->first_step) * run.time_step),
+                                   "use integrator = \"verlet\", lower the amplitude, or set contact.new_contacts = \"off\""));
+  }
+  return result;
+}
+
 }  // namespace
 
 BreakdownText describe(const Breakdown& b, const Scene& scene) {
@@ -153,7 +178,7 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
   in.initial = initial_state(scene, run.assembly);
   in.drive = edge_drive(scene, run.assembly);
   in.sample_every = static_cast<int>(scene.time.sample_every);
-  in.threads = static_cast<int>(scene.run.threads);
+  in.threads = worthwhile_threads(static_cast<int>(scene.run.threads), run.assembly.size());
   if (scene.contact.value().new_contacts == NewContacts::automatic) in.new_contacts = ContactWatch::bound;
   in.on_progress = options.on_progress;
   in.energy_samples = options.energy_samples;
@@ -162,9 +187,12 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
 
   run.critical_time_step =
       options.critical_time_step ? *options.critical_time_step : 2.0 / largest_frequency(run.assembly, in.contact, in.held);
-  run.time_step = in.time_step = choose_step(scene, run.critical_time_step);
+  const double step = choose_step(scene, run.critical_time_step);
+  const bool exact = scene.time.integrator == Integrator::exact;
+  run.time_step = in.time_step = exact ? exact_step(run.critical_time_step, in.drive) : step;
+  run.sample_interval = step * static_cast<double>(in.sample_every);
   if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
-  in.steps = choose_steps(scene, run);
+  in.steps = choose_steps(scene, run, step);
   check_signal_size(scene, run, static_cast<double>(in.steps));
   if (options.warn) {
     if (const auto crystal = crystal_warning(scene)) run.warnings.push_back(*crystal);
@@ -172,7 +200,7 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
     warn_of_instability(scene, run);
   }
 
-  run.result = simulate(run.assembly, in);
+  run.result = exact ? run_exact(scene, run, in) : simulate(run.assembly, in);
   if (const auto& c = run.result.new_contacts; c && options.warn && !run.result.breakdown && run.time_step > c->critical_time_step) {
     run.warnings.push_back(fmt::format("new contacts have closed, and were all that are near to close, the critical step would be "
                                        "{:.4g} s; this step is {:.4g} s: lower step_fraction by {:.3g} to be sure",
@@ -180,7 +208,7 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
   }
   if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {
     run.measurement = measure_wave(wave_component(run.result.signals, *run.wave),
-                                   run.time_step * static_cast<double>(in.sample_every), run.layout, run.context);
+                                   run.sample_interval, run.layout, run.context);
   }
   return run;
 }

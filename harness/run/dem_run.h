@@ -18,7 +18,9 @@ struct DemRun {
   ProbeLayout layout;
   std::optional<Wave> wave;
   WaveContext context;
-  double critical_time_step = 0.0, time_step = 0.0;
+  double critical_time_step = 0.0;
+  double time_step = 0.0;        ///< of the march, s
+  double sample_interval = 0.0;  ///< of the signals, s
   SimulationResult result;
   std::optional<WaveMeasurement> measurement;  ///< empty where there are no pairs or the run diverged
   std::vector<std::string> warnings;

@@ -211,6 +211,26 @@ void check_time(Values& values) {
                 "give at most 1, or allow_above_critical = true for a stability study");
 }
 
+// Exact in time are motions whose stiffness is linear, symmetric and the same at all times.
+void check_exact(Values& values) {
+  if (!values.is("time.integrator", "exact")) return;
+  const auto reject = [&values](const char* what, const char* remedy) { values.reject("time.integrator", what, remedy); };
+  if (values.is("contact.kinematics", "nonlinear")) reject("needs linear kinematics", "use integrator = \"verlet\", or kinematics = \"linear\"");
+  if (!values.table_given("deformation")) return;
+  if (values.is("deformation.scheme", "lagged")) {
+    reject("of lagged strains the time step is a part", "use integrator = \"verlet\", or scheme = \"implicit\"");
+  }
+  if (!values.is("deformation.scheme", "implicit")) return;
+  if (values.is("deformation.solver", "conjugate_gradients")) {
+    reject("needs strains that are linear in the motion", "use integrator = \"verlet\", or solver = \"polynomial\"");
+  }
+  const bool rolls = !values.has("contact.stiffness_ratio") || values.number("contact.stiffness_ratio") > 0.0;
+  if (values.is("deformation.correction", "normal") && rolls) {
+    reject("the normal correction with shear stiffness has no energy",
+           "use integrator = \"verlet\", or correction = \"full\" or \"normal_only_stress\"");
+  }
+}
+
 void check_probes(Values& values) {
   const bool random = values.is("assembly.packing", "random");
   if (random && values.has("assembly.discs") && values.has("probes.discs")) {
@@ -262,6 +282,7 @@ void check_scene(Values& values, Purpose purpose) {
   check_load(values, purpose);
   check_left_edge(values, purpose);
   check_time(values);
+  if (purpose == Purpose::simulation) check_exact(values);
   check_probes(values);
   check_continuum(values);
 }

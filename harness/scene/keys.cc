@@ -170,7 +170,7 @@ constexpr KeySpec keys[] = {
          "with physical curves left, right, bottom and top"),
 
     choice("time", "integrator", "verlet | exact", "\"verlet\"",
-           "velocity Verlet; exact: exact in time at the probes, linear scenes (ddem fem: unless verlet is written)"),
+           "velocity Verlet; exact: exact in time at the probes, for rigid discs or implicit strains; the step then spaces the samples (ddem fem: unless verlet is written)"),
     number("time", "step_fraction", positive, "0.2", "time step as a fraction of the critical one"),
     quantity("time", "step", time, positive, no_default, "instead of step_fraction: the time step"),
     quantity("time", "end", time, positive, no_default,

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "harness/scene/build_scene.h"
-#include "harness/scene/not_built.h"
 #include "harness/scene/text_file.h"
 
 namespace ddem::harness {
@@ -24,10 +23,7 @@ SceneResult parse_scene(std::string_view text, const std::string& name,
   const Checked<Document> document = parse_document(text, name);
   if (!document) return document.violations;
   Values values(*document, name, base_folder);
-  if (!values.too_many_violations()) {
-    check_scene(values, options.purpose);
-    reject_not_built(values, options.purpose);
-  }
+  if (!values.too_many_violations()) check_scene(values, options.purpose);
   if (!values.violations().empty()) {
     Violations violations = by_line(values.violations());
     if (values.too_many_violations()) {

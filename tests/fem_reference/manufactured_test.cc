@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/core/time_filter.h"
 #include "fem_reference/kernel/critical_step.h"
 #include "fem_reference/kernel/leapfrog.h"
-#include "fem_reference/kernel/time_filter.h"
 #include "tests/fem_reference/dense.h"
 #include "tests/fem_reference/rectangle_mesh.h"
 

@@ -1,7 +1,6 @@
 // Exactness in time: the coefficients against closed forms in the frequency, and the filtered states of a leapfrog
 // against the eigenvectors of a small strip.
 
-#include "fem_reference/kernel/time_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "dem/core/time_filter.h"
 #include "fem_reference/kernel/critical_step.h"
 #include "fem_reference/kernel/leapfrog.h"
 #include "tests/fem_reference/dense.h"

@@ -69,9 +69,9 @@ std::vector<Mistake> mistakes() {
       {"DotsWithoutEnd", "x" + std::string(100000, '.') + " = 1", {"scene.toml:1:"}},
       {"BinaryRubbish", rubbish(30000), {"scene.toml: not a text file"}},
       {"Empty", "", {"scene.toml: assembly.packing: missing"}},
-      {"NotBuiltYetIntegrator",
-       with_table(scene, "[time]\nintegrator = \"exact\""),
-       {"scene.toml:17: time.integrator = \"exact\": not built yet; use integrator = \"verlet\""}},
+      {"LaggedIsNotExactInTime",
+       with_table(scene, "[time]\nintegrator = \"exact\"\n[deformation]\nyoung_modulus = 1e10\npoisson_ratio = 0.3"),
+       {"scene.toml:17: time.integrator = \"exact\": of lagged strains", "use integrator = \"verlet\", or scheme = \"implicit\""}},
   };
 }
 

@@ -175,9 +175,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "must be greater than -1 and less than 1"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    NotBuiltYet, OneMistake,
+    NotExactInTime, OneMistake,
     testing::Values(
-        Mistake{"", "[time]\nintegrator = \"exact\"\n", "not built yet; use integrator = \"verlet\""}));
+        Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
+                "of lagged strains the time step is a part; use integrator = \"verlet\", or scheme = \"implicit\""},
+        Mistake{"", "[deformation]\nscheme = \"implicit\"\nyoung_modulus = 1\npoisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
+                "the normal correction with shear stiffness has no energy"},
+        Mistake{"",
+                "[deformation]\nscheme = \"implicit\"\ncorrection = \"full\"\nsolver = \"conjugate_gradients\"\nyoung_modulus = 1\n"
+                "poisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
+                "or solver = \"polynomial\""},
+        Mistake{"[contact]", "[time]\nintegrator = \"exact\"\n[contact]\nkinematics = \"nonlinear\"\n", "needs linear kinematics"}));
 
 TEST(SceneErrors, PlaneStressTakesWhatPlaneStrainCannot) {
   EXPECT_TRUE(parse(small_scene() + "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.5\n"));

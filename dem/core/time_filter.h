@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-namespace ddem::fem {
+namespace ddem {
 
 /// States T_0 v .. T_(count-1) v after which all coefficients up to `time` are below 1e-18 of the largest. `time`
 /// >= 0, `time_step` > 0.
@@ -38,4 +38,4 @@ void drive_coefficients(const Sin2& pulse, double time, double time_step, std::s
 
 // All of them fill `a` with a_0 .. a_(size-1), zeros included, in a time of order z.
 
-}  // namespace ddem::fem
+}  // namespace ddem

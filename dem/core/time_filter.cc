@@ -5,7 +5,7 @@
 // Downwards from orders where all vanish these are stable for alpha < 1: solutions of the homogeneous equation keep
 // their size, |-i alpha +- sqrt(1 - alpha^2)| = 1.
 
-#include "fem_reference/kernel/time_filter.h"
+#include "dem/core/time_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace ddem::fem {
+namespace ddem {
 namespace {
 
 using std::numbers::pi;
@@ -145,4 +145,4 @@ void drive_coefficients(const Sin2& pulse, double time, double time_step, std::s
   }
 }
 
-}  // namespace ddem::fem
+}  // namespace ddem

@@ -1,0 +1,189 @@
+// No work where nothing can have moved yet: the same bits, and the front where the bonds carry it.
+
+#include "dem/simulation/front.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <numeric>
+
+#include "dem/simulation/simulation.h"
+#include "dem/spectra/spectra.h"
+#include "tests/support/assemblies.h"
+
+namespace ddem {
+namespace {
+
+using test::kNormalStiffness;
+
+enum class Source { column, cosine, drive, inside, nothing };
+
+struct Case {
+  const char* name;
+  Source source;
+  double stiffness_ratio;
+  DeformationParameters deformation = {};
+  Kinematics kinematics = Kinematics::linear;
+};
+
+DeformationParameters strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial, int evaluations = 1) {
+  DeformationParameters d{scheme, Correction::full, 4.0 * kNormalStiffness, 0.3, Plane::stress};
+  d.solver = solver;
+  d.evaluations = evaluations;
+  return d;
+}
+
+const Case cases[] = {{"Column", Source::column, 0.25},
+                      {"ColumnWithoutShear", Source::column, 0.0},
+                      {"Cosine", Source::cosine, 0.25},
+                      {"Drive", Source::drive, 0.25},
+                      {"Inside", Source::inside, 0.25},
+                      {"Nothing", Source::nothing, 0.25},
+                      {"Nonlinear", Source::column, 0.25, {}, Kinematics::nonlinear},
+                      {"Lagged", Source::column, 0.25, strains(Scheme::lagged)},
+                      {"LaggedThrice", Source::drive, 0.25, strains(Scheme::lagged, StrainSolver::polynomial, 3)},
+                      {"Implicit", Source::column, 0.25, strains(Scheme::implicit)},
+                      {"ImplicitDriven", Source::drive, 0.25, strains(Scheme::implicit)},
+                      {"Gradients", Source::column, 0.25, strains(Scheme::implicit, StrainSolver::conjugate_gradients)}};
+
+class Front : public testing::TestWithParam<Case> {
+ protected:
+  SimulationInput input(const Assembly& a) const {
+    SimulationInput in;
+    in.contact = {kNormalStiffness, GetParam().stiffness_ratio, GetParam().kinematics};
+    in.deformation = GetParam().deformation;
+    in.time_step = 0.9 * 2.0 / largest_frequency(a, in.contact, {});
+    in.snapshots = 3;
+    in.receivers = {{{100}}, {{300, 301}}};
+    const std::vector<int> left = edge_discs(a.packing, Edge::left, mean_radius(a.packing));
+    auto& u = in.initial.uy;
+    u.assign(a.size(), 0.0);
+    switch (GetParam().source) {
+      case Source::column:
+        for (const int d : left) u[d] = 1e-8;
+        break;
+      case Source::cosine:
+        for (std::size_t d = 0; d < a.size(); ++d) {
+          const double s = a.packing.x[d] / 3e-3;
+          if (s < 1.0) u[d] = 5e-9 * (1.0 + std::cos(std::numbers::pi * s));
+        }
+        break;
+      case Source::drive: in.drive = EdgeDrive{left, Direction::y, 1e-8, 30.0 * in.time_step}; break;
+      case Source::inside: in.initial.omega.assign(a.size(), 0.0), in.initial.omega[a.size() / 2] = 1.0; break;
+      case Source::nothing: break;
+    }
+    return in;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Cases, Front, testing::ValuesIn(cases), [](const auto& p) { return p.param.name; });
+
+/// Zeros with their signs too.
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+void expect_same_bits(const SimulationResult& a, const SimulationResult& b) {
+  ASSERT_EQ(a.signals.ux.size(), b.signals.ux.size());
+  for (std::size_t r = 0; r < a.signals.ux.size(); ++r) {
+    EXPECT_TRUE(same_bits(a.signals.ux[r], b.signals.ux[r]) && same_bits(a.signals.uy[r], b.signals.uy[r]) && same_bits(a.signals.theta[r], b.signals.theta[r]));
+  }
+  const auto expect_same_state = [](const InitialState& s, const InitialState& t) {
+    EXPECT_TRUE(same_bits(s.ux, t.ux) && same_bits(s.uy, t.uy) && same_bits(s.theta, t.theta));
+    EXPECT_TRUE(same_bits(s.vx, t.vx) && same_bits(s.vy, t.vy) && same_bits(s.omega, t.omega));
+  };
+  expect_same_state(a.final_state, b.final_state);
+  ASSERT_EQ(a.snapshots.size(), b.snapshots.size());
+  for (std::size_t k = 0; k < a.snapshots.size(); ++k) {
+    expect_same_state(a.snapshots[k].state, b.snapshots[k].state);
+    EXPECT_TRUE(same_bits(a.snapshots[k].strain.xx, b.snapshots[k].strain.xx) && same_bits(a.snapshots[k].strain.xy, b.snapshots[k].strain.xy));
+  }
+  EXPECT_EQ(a.energy_drift, b.energy_drift);
+}
+
+TEST_P(Front, KeepsTheBits) {
+  const Assembly a = test::random_free_strip();
+  SimulationInput in = input(a);
+  // While the front is under way, and well after it has arrived: 90 or so bonds from end to end.
+  for (const long steps : {5L, 40L, 150L}) {
+    in.steps = steps;
+    for (const ContactWatch watch : {ContactWatch::off, ContactWatch::bound}) {
+      if (watch != ContactWatch::off && in.deformation.solver == StrainSolver::conjugate_gradients) continue;
+      in.new_contacts = watch;
+      in.threads = 1;
+      in.follow_front = false;
+      const SimulationResult everywhere = simulate(a, in);
+      in.follow_front = true;
+      // More threads than slices that move at first.
+      in.threads = steps == 5 ? 3 : 1;
+      expect_same_bits(everywhere, simulate(a, in));
+    }
+  }
+}
+
+/// Two rows of twenty discs that no bond joins: the motion gets across when the gap closes.
+TEST(FrontWithContacts, CrossesAGapThatCloses) {
+  Packing p;
+  std::vector<std::pair<int, int>> bonded;
+  for (int d = 0; d < 40; ++d) {
+    p.x.push_back(2e-4 * d + (d >= 20 ? 1e-9 : 0.0));
+    p.y.push_back(1e-4);
+    p.radius.push_back(1e-4);
+    if (d % 20 != 0) bonded.emplace_back(d - 1, d);
+  }
+  p.length = 81e-4, p.width = 2e-4;
+  const Assembly a = make_assembly(p, bonds_between(p, bonded), 1.0, test::kDensity, RattlerRule::apart);
+  SimulationInput in;
+  in.contact = {kNormalStiffness, 0.0, Kinematics::linear};
+  in.time_step = 0.5 * 2.0 / largest_frequency(a, in.contact, {});
+  in.steps = 300;
+  in.initial.ux.assign(40, 0.0);
+  in.initial.ux[0] = 1e-8;
+  in.receivers = {{{10}}, {{30}}};
+  in.new_contacts = ContactWatch::bound;
+  const SimulationResult followed = simulate(a, in);
+  in.follow_front = false;
+  expect_same_bits(simulate(a, in), followed);
+  ASSERT_TRUE(followed.new_contacts.has_value());
+  EXPECT_NE(followed.signals.ux[1].back(), 0.0);
+}
+
+TEST(Fronts, AdvanceOneBondASweep) {
+  // A chain of 80 discs, ten slices, moved at its left end: sweep n reaches disc n + 1.
+  const Assembly a = test::hexagonal_assembly({.columns = 80, .rows = 1, .radius = 1e-4});
+  std::vector<int> position(80);
+  std::iota(position.begin(), position.end(), 0);
+  const SlicedBonds sliced = slice_bonds(a.bonds, position, {}, false);
+  std::vector<char> moving(80, 0);
+  moving[0] = 1;
+  const std::vector<int> fronts = motion_fronts(sliced, moving);
+  ASSERT_EQ(fronts.size(), 72u);  // sweep 71 reaches disc 72, the first of the last slice
+  for (int n = 0; n < 72; ++n) EXPECT_EQ(fronts[n], (n + 1) / 8 + 1) << n;
+  // Nothing moves, and everything does.
+  EXPECT_EQ(motion_fronts(sliced, std::vector<char>(80, 0)), std::vector<int>{0});
+  EXPECT_EQ(motion_fronts(sliced, std::vector<char>(80, 1)), std::vector<int>{10});
+}
+
+TEST(Fronts, StopWhereTheBondsEnd) {
+  Packing p;
+  for (int d = 0; d < 32; ++d) p.x.push_back(2e-4 * d), p.y.push_back(1e-4), p.radius.push_back(1e-4);
+  p.length = 64e-4, p.width = 2e-4;
+  std::vector<std::pair<int, int>> bonded;
+  for (int d = 1; d < 12; ++d) bonded.emplace_back(d - 1, d);
+  std::vector<int> position(32);
+  std::iota(position.begin(), position.end(), 0);
+  std::vector<char> moving(32, 0);
+  moving[9] = 1;
+  EXPECT_EQ(motion_fronts(slice_bonds(bonds_between(p, bonded), position, {}, false), moving).back(), 2);
+}
+
+TEST(Threads, AreAsManyAsPay) {
+  EXPECT_EQ(worthwhile_threads(2, 682), 1);
+  EXPECT_EQ(worthwhile_threads(2, 100000), 2);
+  EXPECT_EQ(worthwhile_threads(1, 100000), 1);
+  EXPECT_EQ(worthwhile_threads(64, 10000), 5);
+}
+
+}  // namespace
+}  // namespace ddem
