@@ -423,7 +423,7 @@
     const live = host.querySelector('.live'), panels = make('div', { className: 'panels' });
     const plots = [], strips = [], views = [];
     const count = figure.panels.filter((p) => p.type === 'plot').length;
-    const columns = count < 2 ? 1 : Math.min(count, figure.columns || 2, 4);
+    const columns = count < 2 ? 1 : Math.min(count, figure.columns || (count === 3 ? 3 : 2), 4);
     panels.style.setProperty('--columns', columns);
     panels.classList.toggle('single', columns === 1);
     const jobs = figure.panels.map((panel) => {
