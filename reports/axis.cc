@@ -133,6 +133,7 @@ AxisMarks axis_marks(const Axis& axis, Limits limits, int max_count) {
     for (const double v : ticks.values) largest = std::max(largest, std::abs(v));
     const Unit unit = display_unit(axis.unit, largest);
     marks.title = axis_title(axis.label, unit.text);
+    marks.exponent = unit.exponent;
     const int decimals = std::max(0, unit.exponent - ticks.exponent);
     // Two steps, as 10^exponent alone may be subnormal.
     const double half = std::pow(10.0, -(unit.exponent / 2)),

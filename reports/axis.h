@@ -50,6 +50,7 @@ struct Tick {
 struct AxisMarks {
   std::vector<Tick> ticks = {};
   std::string title = {};  ///< label with unit: "time (µs)", "energy (10⁻⁷ J m)"
+  int exponent = 0;        ///< tick labels are data / 10^exponent
   double label_width = 0.0;
 };
 

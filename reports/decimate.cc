@@ -25,4 +25,19 @@ Polyline decimate(const Polyline& line, double column_width) {
   return kept;
 }
 
+std::vector<std::size_t> kept_rows(const std::vector<double>& y, std::size_t max_rows) {
+  std::vector<std::size_t> rows;
+  if (y.size() <= max_rows) {
+    for (std::size_t i = 0; i < y.size(); ++i) rows.push_back(i);
+    return rows;
+  }
+  Polyline finite;  // (row, value)
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (std::isfinite(y[i])) finite.push_back({static_cast<double>(i), y[i]});
+  // At most four rows of each bucket survive.
+  const double bucket = 4.0 * static_cast<double>(y.size()) / static_cast<double>(max_rows);
+  for (const Point& p : decimate(finite, bucket)) rows.push_back(static_cast<std::size_t>(p.x));
+  return rows;
+}
+
 }  // namespace ddem::reports

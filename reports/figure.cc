@@ -44,6 +44,7 @@ class Checker {
     for (const Probe& p : strip.probes)
       if (!std::isfinite(p.x) || !std::isfinite(p.y))
         fail(fmt::format("probe '{}' is at ({}, {})", p.label, p.x, p.y));
+    check_frames(strip);
   }
 
  private:
@@ -55,6 +56,17 @@ class Checker {
                     std::size_t expected) const {
     if (actual == expected) return;
     fail(fmt::format("{} '{}' has {} values of {} for {} of x", kind, name, actual, what, expected));
+  }
+
+  void check_frames(const Strip& strip) const {
+    for (const double t : strip.times)
+      if (!std::isfinite(t)) fail("a frame's time is not finite");
+    for (const StripField& f : strip.fields) {
+      if (f.values.size() != strip.times.size() * strip.x.size())
+        fail(fmt::format("field '{}' has {} values for {} frames of {} discs", f.axis.label, f.values.size(), strip.times.size(), strip.x.size()));
+      if (!f.axis.limits || f.axis.scale != Scale::linear) fail("a field over time needs linear limits of its colours");
+      check_axis(f.axis, "field over time");
+    }
   }
 
   void check_map(const HeatMap& map, const Plot& plot) const {

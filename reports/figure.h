@@ -102,6 +102,12 @@ struct Probe {
   std::string label = {};
 };
 
+/// A value of every disc at every time of a strip's frames.
+struct StripField {
+  Axis axis = {};                   ///< label, unit and limits of the colours; limits are needed
+  std::vector<double> values = {};  ///< values[frame * discs + disc]
+};
+
 /// The assembly itself, to equal aspect ratio: discs coloured by a value, probes ringed and labelled.
 struct Strip {
   std::string title = {};
@@ -111,6 +117,8 @@ struct Strip {
   std::vector<double> value = {};   ///< one a disc; empty: geometry only
   Axis value_axis = {};             ///< label, unit and limits of the colour bar (always linear)
   std::vector<Probe> probes = {};
+  std::vector<double> times = {};        ///< of the frames of `fields`, s; empty: a still picture
+  std::vector<StripField> fields = {};   ///< what a renderer that can move shows instead of `value`
 };
 
 using Panel = std::variant<Plot, Strip>;
@@ -124,7 +132,7 @@ struct Figure {
 };
 
 /// Throws std::invalid_argument, naming figure and series, if lengths differ within a series, a radius is not
-/// positive and finite, a disc's or probe's position is not finite, a heat map's centres do not ascend, or limits are empty or
+/// positive and finite, a disc's or probe's position or a frame's time is not finite, a heat map's centres do not ascend, or limits are empty or
 /// not drawable.
 void require_valid(const Figure& figure);
 

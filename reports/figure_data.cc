@@ -126,12 +126,12 @@ class CsvWriter {
   void add(const Plot& plot, std::size_t index) {
     const std::string panel = plot.title.empty() ? std::to_string(index + 1) : plot.title;
     for (const Series& s : plot.series)
-      for (const std::size_t i : kept_rows(s.y))
+      for (const std::size_t i : kept(s.y))
         row(panel, "series", s.name,
             {.x = s.x[i], .y = s.y[i], .error = s.error.empty() ? kNone : s.error[i]});
     if (plot.map) add(*plot.map, panel);
     for (const Band& b : plot.bands)
-      for (const std::size_t i : kept_rows(b.upper))
+      for (const std::size_t i : kept(b.upper))
         row(panel, "band", b.name, {.x = b.x[i], .lower = b.lower[i], .upper = b.upper[i]});
     for (const ReferenceLine& r : plot.references)
       row(panel, "reference", r.label,
@@ -177,20 +177,9 @@ class CsvWriter {
       row(panel, "cell", map.value_axis.label, {.x = map.x[i % map.x.size()], .y = map.y[i / map.x.size()], .value = map.value[i]});
   }
 
-  std::vector<std::size_t> kept_rows(const std::vector<double>& y) {
-    std::vector<std::size_t> rows;
-    if (y.size() <= rows_per_series_) {
-      for (std::size_t i = 0; i < y.size(); ++i) rows.push_back(i);
-      return rows;
-    }
-    csv_.thinned = true;
-    Polyline finite;  // (row, value)
-    for (std::size_t i = 0; i < y.size(); ++i)
-      if (std::isfinite(y[i])) finite.push_back({static_cast<double>(i), y[i]});
-    // At most four rows of each bucket survive.
-    const double bucket = 4.0 * static_cast<double>(y.size()) / static_cast<double>(rows_per_series_);
-    for (const Point& p : decimate(finite, bucket)) rows.push_back(static_cast<std::size_t>(p.x));
-    return rows;
+  std::vector<std::size_t> kept(const std::vector<double>& y) {
+    csv_.thinned = csv_.thinned || y.size() > rows_per_series_;
+    return kept_rows(y, rows_per_series_);
   }
 
   void row(const std::string& panel, std::string_view kind, const std::string& name, const Values& v) {

@@ -17,6 +17,8 @@ std::vector<std::string> notes_of(const Figure& figure);
 /// One table for each set of series that share their x values; of long ones about `max_rows` rows.
 std::vector<Table> data_tables(const Figure& figure, std::size_t max_rows);
 
+constexpr std::size_t kAllRows = 1'000'000'000;  ///< none is thinned
+
 struct Csv {
   std::string text = {};
   bool thinned = false;

@@ -49,7 +49,6 @@ int color_index(double fraction) {
   return std::isfinite(fraction) ? static_cast<int>(std::lround(fraction * (kColors - 1))) : -1;
 }
 
-/// Ticks of the colour bar: decades where the scale has them.
 std::vector<Tick> ticks_of(const HeatMap& map, double height) {
   const Axis axis{.scale = map.scale == ColorScale::linear ? Scale::linear : Scale::log};
   const double part = map.scale == ColorScale::signed_log ? 0.5 * height : height;
@@ -96,6 +95,16 @@ void draw_cells(Markup& out, const HeatMap& map, const Plot& plot, const AxisSca
   out.close().newline();
 }
 
+std::vector<ColorTick> color_ticks(const HeatMap& map, double height) {
+  std::vector<ColorTick> ticks;
+  for (const Tick& t : ticks_of(map, height)) ticks.push_back({fraction_of(map, t.value), t.label});
+  return ticks;
+}
+
+std::string color_title(const HeatMap& map) {
+  return map.value_axis.label + (map.value_axis.unit.empty() ? "" : " (" + map.value_axis.unit + ")");
+}
+
 void draw_color_bar(Markup& out, const HeatMap& map, const Rect& area) {
   constexpr double gap = 8.0, width = 11.0;
   const double left = area.right() + gap, cell = area.height / kColors;
@@ -109,13 +118,12 @@ void draw_color_bar(Markup& out, const HeatMap& map, const Rect& area) {
                        {"fill", color_of(map, static_cast<double>(i) / (kColors - 1))}});
   }
   out.open("g", {{"fill", "#444"}});
-  for (const Tick& t : ticks_of(map, area.height)) {
-    const double py = area.bottom() - fraction_of(map, t.value) * area.height;
+  for (const ColorTick& t : color_ticks(map, area.height)) {
+    const double py = area.bottom() - t.fraction * area.height;
     out.empty("line", {{"x1", left + width}, {"x2", left + width + 3}, {"y1", py}, {"y2", py}, {"stroke", "#7a828c"}});
     out.element("text", {{"x", left + width + 5}, {"y", py + 4.2}, {"font-size", kTickFont - 1}}, t.label);
   }
-  const std::string unit = map.value_axis.unit.empty() ? "" : " (" + map.value_axis.unit + ")";
-  out.element("text", {{"x", area.right() + kColorBarRoom - 4}, {"y", area.top - 8}, {"text-anchor", "end"}, {"font-size", kTickFont + 1}}, map.value_axis.label + unit);
+  out.element("text", {{"x", area.right() + kColorBarRoom - 4}, {"y", area.top - 8}, {"text-anchor", "end"}, {"font-size", kTickFont + 1}}, color_title(map));
   out.close().close().newline();
 }
 

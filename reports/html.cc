@@ -1,8 +1,11 @@
 #include <set>
+#include <span>
+#include <stdexcept>
 #include <string>
 
 #include "reports/html_assets.h"
 #include "reports/html_parts.h"
+#include "reports/interactive.h"
 #include "reports/report.h"
 #include "reports/text.h"
 
@@ -65,7 +68,12 @@ void append_provenance(Markup& out, const Report& report) {
   out.close().close().newline();
 }
 
-std::string render(const Report& report, const Detail& detail) {
+/// Any script: what follows // is no markup to XML, and a comment to the script.
+void append_script(Markup& out, std::string_view script) {
+  out.open("script").raw("//<![CDATA[\n").raw(script).raw("\n//]]>").close().newline();
+}
+
+std::string render(const Report& report, const Detail& detail, std::string_view plotly) {
   Anchors anchors;
   std::vector<std::string> section_ids;
   for (const Section& s : report.sections) section_ids.push_back(anchors.make("section-" + s.heading));
@@ -89,20 +97,32 @@ std::string render(const Report& report, const Detail& detail) {
     out.close().newline();
   }
   append_provenance(out, report);
-  out.close().newline().open("script").raw(kScript).close().newline();
+  out.close().newline();
+  if (detail.live_points > 0) {
+    out.open("script", {{"type", "application/json"}, {"id", "palette"}}).raw(live_palette()).close().newline();
+    append_script(out, plotly);
+  }
+  append_script(out, kScript);
   out.close().close().newline();
   return out.take();
 }
 
 }  // namespace
 
-std::string render_html(const Report& report) {
-  constexpr Detail levels[] = {{.csv_rows = 4000, .table_rows = 60, .narrow_drawings = true},
-                               {.csv_rows = 800, .table_rows = 20, .narrow_drawings = true},
-                               {.csv_rows = 200, .table_rows = 10, .narrow_drawings = false}};
+std::string render_html(const Report& report, const HtmlOptions& options) {
+  constexpr Detail still[] = {{.csv_rows = 4000, .table_rows = 60, .narrow_drawings = true},
+                              {.csv_rows = 800, .table_rows = 20, .narrow_drawings = true},
+                              {.csv_rows = 200, .table_rows = 10, .narrow_drawings = false}};
+  constexpr Detail live[] = {{.table_rows = 60, .narrow_drawings = false, .live_points = 2000},
+                             {.table_rows = 30, .narrow_drawings = false, .live_points = 1000},
+                             {.table_rows = 20, .narrow_drawings = false, .live_points = 500},
+                             {.table_rows = 10, .narrow_drawings = false, .live_points = 150}};
+  for (const std::string_view end : {"]]>", "</script", "<!--"})
+    if (options.plotly.find(end) != std::string_view::npos)
+      throw std::invalid_argument("the plotting library holds " + std::string(end) + ", which ends a script of a page");
   std::string html;
-  for (const Detail& detail : levels) {
-    html = render(report, detail);
+  for (const Detail& detail : options.plotly.empty() ? std::span<const Detail>(still) : std::span<const Detail>(live)) {
+    html = render(report, detail, options.plotly);
     if (html.size() < kReportSizeLimit) break;
   }
   return html;

@@ -1,15 +1,21 @@
+#include <algorithm>
+
 #include "reports/figure_data.h"
 #include "reports/html_parts.h"
+#include "reports/interactive.h"
 #include "reports/svg.h"
 #include "reports/text.h"
 
 namespace ddem::reports {
 namespace {
 
-// A table row takes some ten times as many bytes as it has digits, so that long data are only in the CSV.
-void append_data(Markup& out, const Figure& figure, const Detail& detail) {
+// A data URI; an interactive page makes the file from the figure's data, which it holds already.
+void append_csv_link(Markup& out, const Figure& figure, const Detail& detail) {
+  if (detail.live_points > 0) {
+    out.element("p", {{"class", "note csv"}}, "").newline();
+    return;
+  }
   const Csv csv = figure_csv(figure, detail.csv_rows);
-  out.open("details", {{"class", "data"}}).element("summary", {}, "Data").newline();
   out.open("p", {{"class", "note"}});
   out.open("a", {{"download", slug(figure.id) + ".csv"},
                  {"href", std::string("data:text/csv;charset=utf-8,").append(percent_encode(csv.text))}});
@@ -17,16 +23,36 @@ void append_data(Markup& out, const Figure& figure, const Detail& detail) {
   out.text(csv.thinned ? " (SI units; long series are thinned, their extremes kept)."
                        : " (SI units, all points).");
   out.close().newline();
+}
+
+// A table row takes some ten times as many bytes as it has digits, so that long data are only in the CSV.
+void append_data(Markup& out, const Figure& figure, const Detail& detail) {
+  out.open("details", {{"class", "data"}}).element("summary", {}, "Data").newline();
+  append_csv_link(out, figure, detail);
   for (const Table& table : data_tables(figure, detail.table_rows)) append_table(out, table);
   out.close().newline();
 }
 
+// A strip moves only where it has frames; without them its SVG shows all there is.
+bool is_live(const Figure& figure) {
+  return std::all_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {
+    const Strip* strip = std::get_if<Strip>(&panel);
+    return strip == nullptr || (!strip->fields.empty() && !strip->times.empty());
+  });
+}
+
 }  // namespace
 
-void append_figure(Markup& out, const Figure& figure, const std::string& anchor, const Detail& detail) {
+void append_figure(Markup& out, const Figure& figure, const std::string& anchor, const Detail& page) {
+  Detail detail = page;
+  if (!is_live(figure)) detail.live_points = 0;
   out.open("figure", {{"id", anchor}}).newline();
   if (!figure.title.empty()) out.element("h3", {}, figure.title).newline();
-  out.open("div", {{"class", detail.narrow_drawings ? "drawing wide" : "drawing"}});
+  if (detail.live_points > 0) {
+    out.open("div", {{"class", "live"}}).text("").close();
+    out.open("script", {{"type", "application/json"}, {"class", "figure-data"}}).raw(live_figure(figure, detail.live_points)).close().newline();
+  }
+  out.open("div", {{"class", detail.narrow_drawings ? "drawing wide" : detail.live_points > 0 ? "drawing still" : "drawing"}});
   out.raw(render_embedded_svg(figure, {.width = 860.0, .side_by_side = true, .id_prefix = anchor + "-w"}))
       .close();
   if (detail.narrow_drawings) {

@@ -15,6 +15,7 @@ struct Detail {
   std::size_t csv_rows = 4000;  ///< of each figure
   std::size_t table_rows = 60;  ///< of each table behind a figure
   bool narrow_drawings = true;  ///< a second drawing for narrow screens
+  std::size_t live_points = 0;  ///< of each series of an interactive figure; 0: figures are SVG alone
 };
 
 /// `anchor`: unique within the page.
@@ -22,7 +23,7 @@ void append_figure(Markup& out, const Figure& figure, const std::string& anchor,
 
 void append_table(Markup& out, const Table& table);
 
-/// Headcount, filter and verdicts, grouped by state, worst first.
+/// Headcount, filters and verdicts, grouped by state, worst first.
 void append_verdicts(Markup& out, const std::vector<Verdict>& verdicts);
 
 /// Opens a box that scrolls sideways by itself on narrow screens; close with close().

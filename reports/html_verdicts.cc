@@ -5,6 +5,7 @@
 
 #include "reports/html_parts.h"
 #include "reports/number.h"
+#include "reports/text.h"
 
 namespace ddem::reports {
 namespace {
@@ -31,28 +32,23 @@ void append_badge(Markup& out, State state) {
 void append_gauge(Markup& out, const Criterion& c) {
   const double span = c.upper - c.lower;
   if (!std::isfinite(c.lower) || !std::isfinite(c.upper) || !std::isfinite(span) || !(span > 0.0)) return;
-  constexpr double width = 96.0, band_left = 24.0, band = 48.0;
+  constexpr double band_left = 24.0, band = 48.0;
   const auto pixel = [&](double v) {
     return band_left + band * std::clamp((v - c.lower) / span, -0.42, 1.42);
   };
-  out.open("svg", {{"class", "gauge"},
-                   {"viewBox", "0 0 96 16"},
-                   {"width", width},
-                   {"height", 16.0},
-                   {"aria-hidden", "true"}});
-  out.empty("line", {{"x1", 0.0}, {"x2", width}, {"y1", 8.0}, {"y2", 8.0}, {"stroke", "#b8bfc7"}});
-  out.empty("rect", {{"x", band_left}, {"y", 4.0}, {"width", band}, {"height", 8.0}, {"fill", "#cfe3f1"}});
-  if (std::isfinite(c.target))
-    out.empty(
-        "line",
-        {{"x1", pixel(c.target)}, {"x2", pixel(c.target)}, {"y1", 2.0}, {"y2", 14.0}, {"stroke", "#333"}});
-  if (std::isfinite(c.actual))
-    out.empty("circle", {{"cx", pixel(c.actual)},
-                         {"cy", 8.0},
-                         {"r", 3.6},
-                         {"stroke", "#fff"},
-                         {"fill", is_failure(c.state) ? "#b3261e" : "#0072b2"}});
+  // Hundreds of them: what they share stands once in the page.
+  out.open("svg", {{"class", "gauge"}, {"aria-hidden", "true"}}).empty("use", {{"href", "#gauge"}});
+  if (std::isfinite(c.target)) out.empty("path", {{"d", "M" + coordinate(pixel(c.target)) + " 2v12"}});
+  if (std::isfinite(c.actual)) {
+    out.empty("circle", {{"class", is_failure(c.state) ? "out" : "in"}, {"cx", pixel(c.actual)}, {"cy", 8.0}, {"r", 3.6}});
+  }
   out.close();
+}
+
+void append_gauge_scale(Markup& out) {
+  out.open("svg", {{"class", "hidden"}, {"aria-hidden", "true"}}).open("symbol", {{"id", "gauge"}, {"viewBox", "0 0 96 16"}});
+  out.empty("path", {{"d", "M0 8h96"}, {"stroke", "#b8bfc7"}}).empty("path", {{"d", "M24 4h48v8h-48z"}, {"fill", "#cfe3f1"}});
+  out.close().close().newline();
 }
 
 void append_criteria(Markup& out, const Verdict& verdict) {
@@ -82,12 +78,18 @@ void append_criteria(Markup& out, const Verdict& verdict) {
   out.close().close().close().newline();
 }
 
-void append_verdict(Markup& out, const Verdict& v) {
+void open_case(Markup& out, const Verdict& v) {
+  std::vector<Attribute> attributes = {{"class", "case"}};
+  std::vector<std::string> names;
+  for (const auto& [facet, value] : v.facets) names.push_back("data-" + slug(facet));
+  for (std::size_t i = 0; i < names.size(); ++i) attributes.emplace_back(names[i], v.facets[i].second);
   // A case that needs attention is open from the start.
-  if (is_failure(v.state))
-    out.open("details", {{"class", "case"}, {"open", "open"}});
-  else
-    out.open("details", {{"class", "case"}});
+  if (is_failure(v.state)) attributes.emplace_back("open", "open");
+  out.open("details", attributes);
+}
+
+void append_verdict(Markup& out, const Verdict& v) {
+  open_case(out, v);
   out.open("summary");
   append_badge(out, v.state);
   out.text(" ").element("code", {}, v.case_id).text(" ").element("span", {{"class", "title"}}, v.title);
@@ -106,15 +108,35 @@ std::vector<const Verdict*> of_state(const std::vector<const Verdict*>& sorted, 
   return chosen;
 }
 
+// A choice for each facet, values in the order in which they come.
+void append_facets(Markup& out, const std::vector<const Verdict*>& sorted) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> facets;
+  for (const Verdict* v : sorted)
+    for (const auto& [facet, value] : v->facets) {
+      auto known = std::find_if(facets.begin(), facets.end(), [&](const auto& f) { return f.first == facet; });
+      if (known == facets.end()) known = facets.insert(facets.end(), {facet, {}});
+      if (std::find(known->second.begin(), known->second.end(), value) == known->second.end()) known->second.push_back(value);
+    }
+  for (auto& [facet, values] : facets) {
+    std::sort(values.begin(), values.end());
+    out.open("label").text(facet + " ").open("select", {{"name", slug(facet)}});
+    out.element("option", {{"value", ""}}, "all");
+    for (const std::string& value : values) out.element("option", {{"value", value}}, value);
+    out.close().close();
+  }
+}
+
 void append_filter(Markup& out, const std::vector<const Verdict*>& sorted) {
-  out.open("div", {{"class", "filter"}, {"role", "group"}, {"aria-label", "Show cases by state"}});
+  out.open("div", {{"class", "filter"}, {"role", "group"}, {"aria-label", "Show cases"}});
   out.element("button", {{"type", "button"}, {"data-show", ""}, {"aria-pressed", "true"}},
               fmt::format("All {}", sorted.size()));
   for (const State state : kStatesWorstFirst)
     if (const std::size_t n = of_state(sorted, state).size(); n > 0)
       out.element("button", {{"type", "button"}, {"data-show", to_string(state)}, {"aria-pressed", "false"}},
                   fmt::format("{} {}", to_string(state), n));
-  out.close().newline();
+  append_facets(out, sorted);
+  out.open("label").text("Words ").empty("input", {{"type", "search"}, {"placeholder", "kt0.30"}}).close();
+  out.close().element("p", {{"class", "note shown"}, {"role", "status"}}, "").newline();
 }
 
 // Shares of passed, skipped and failed cases as a bar.
@@ -144,6 +166,7 @@ void append_verdicts(Markup& out, const std::vector<Verdict>& verdicts) {
       .newline();
   append_bar(out, sorted);
   append_filter(out, sorted);
+  append_gauge_scale(out);
   for (const State state : kStatesWorstFirst) {
     const std::vector<const Verdict*> cases = of_state(sorted, state);
     if (cases.empty()) continue;

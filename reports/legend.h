@@ -27,6 +27,9 @@ class StyleBook {
   explicit StyleBook(const Figure& figure);
   const Style& of(const Series& series) const { return find(series.name, series.color); }
   const Style& of(const Band& band) const { return find(band.name, band.color); }
+  /// Place in styles().
+  std::size_t index_of(const Series& series) const { return static_cast<std::size_t>(&of(series) - styles_.data()); }
+  std::size_t index_of(const Band& band) const { return static_cast<std::size_t>(&of(band) - styles_.data()); }
   /// Colour of the series that a pick belongs to; that of text if there is none.
   std::string_view color_of(const Pick& pick) const;
   const std::vector<Style>& styles() const { return styles_; }

@@ -11,13 +11,17 @@ namespace ddem::reports {
 Attribute::Attribute(std::string_view attribute, double pixels)
     : name(attribute), value(coordinate(pixels)) {}
 
-void Markup::begin(std::string_view tag, Attributes attributes) {
+void Markup::begin(std::string_view tag, std::span<const Attribute> attributes) {
   out_.append("<").append(tag);
   for (const Attribute& a : attributes)
     out_.append(" ").append(a.name).append("=\"").append(escape(a.value)).append("\"");
 }
 
 Markup& Markup::open(std::string_view tag, Attributes attributes) {
+  return open(tag, std::span(attributes.begin(), attributes.size()));
+}
+
+Markup& Markup::open(std::string_view tag, std::span<const Attribute> attributes) {
   begin(tag, attributes);
   out_ += '>';
   open_.emplace_back(tag);
@@ -32,7 +36,7 @@ Markup& Markup::close() {
 }
 
 Markup& Markup::empty(std::string_view tag, Attributes attributes) {
-  begin(tag, attributes);
+  begin(tag, std::span(attributes.begin(), attributes.size()));
   out_ += "/>";
   return *this;
 }

@@ -3,6 +3,7 @@
 // escaped.
 
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ class Markup {
   using Attributes = std::initializer_list<Attribute>;
 
   Markup& open(std::string_view tag, Attributes attributes = {});
+  Markup& open(std::string_view tag, std::span<const Attribute> attributes);
   Markup& close();
   /// <tag .../>: void elements of HTML, and childless ones of SVG.
   Markup& empty(std::string_view tag, Attributes attributes = {});
@@ -37,7 +39,7 @@ class Markup {
   std::string take();
 
  private:
-  void begin(std::string_view tag, Attributes attributes);
+  void begin(std::string_view tag, std::span<const Attribute> attributes);
 
   std::string out_;
   std::vector<std::string> open_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,11 +41,16 @@ struct Report {
 
 constexpr std::size_t kReportSizeLimit = 5'000'000;  ///< bytes
 
-/// One HTML5 file (well-formed as XML too) that needs no network. The same report gives the same bytes. If it
-/// would exceed kReportSizeLimit, the data behind the figures are thinned (extremes survive; the page says
-/// so), and then the drawings for narrow screens are left out. Throws std::invalid_argument for figures that
-/// require_valid() refuses and for table rows longer than their header, naming them. A report that is too
-/// large even so (thousands of verdicts) is returned as it is.
-std::string render_html(const Report& report);
+struct HtmlOptions {
+  /// Text of plotly's cartesian bundle, which goes into the page once and makes its figures interactive. Empty: they are SVG.
+  std::string_view plotly = {};
+};
+
+/// One HTML5 file (well-formed as XML too) that needs no network. The same report gives the same bytes. Interactive figures
+/// have their SVG for browsers without scripts and for paper. If the file would exceed kReportSizeLimit, the data behind the
+/// figures are thinned (extremes survive; the page says so), and then the drawings for narrow screens are left out. Throws
+/// std::invalid_argument for figures that require_valid() refuses, for table rows longer than their header, naming them, and for a
+/// library that cannot stand inside a page. A report that is too large even so (thousands of verdicts) is returned as it is.
+std::string render_html(const Report& report, const HtmlOptions& options = {});
 
 }  // namespace ddem::reports

@@ -69,6 +69,11 @@ Layout layout_of(const Strip& strip, Point corner, double width) {
   return l;
 }
 
+/// Values of both signs, to symmetric limits, from blue through white to red; others in viridis.
+std::string color_at(Limits limits, double fraction) {
+  return hex(is_signed(limits) ? diverging(2.0 * fraction - 1.0) : viridis(fraction));
+}
+
 double fraction_of(double value, Limits limits) {
   // Halves, so that the span of the largest limits does not overflow.
   return (value / 2 - limits.lower / 2) / (limits.upper / 2 - limits.lower / 2);
@@ -90,11 +95,11 @@ void draw_discs(Markup& out, const Strip& strip, const Layout& l) {
     bins[bin].push_back(i);
   }
   out.open("g",
-           {{"class", "discs"}, {"stroke", "#fff"}, {"stroke-width", l.discs.width > 600 ? "0.5" : "0.25"}});
+           {{"class", "discs"}, {"stroke", is_signed(limits) ? "#9aa3ad" : "#fff"}, {"stroke-width", l.discs.width > 600 ? "0.5" : "0.25"}});
   for (std::size_t bin = 0; bin < bins.size(); ++bin) {
     if (bins[bin].empty()) continue;
     const std::string color = bin == kColorBins ? std::string(strip.value.empty() ? "#a9bdd0" : "#c4c4c4")
-                                                : hex(viridis(static_cast<double>(bin) / (kColorBins - 1)));
+                                                : color_at(limits, static_cast<double>(bin) / (kColorBins - 1));
     out.open("g", {{"fill", color}});
     for (const std::size_t i : bins[bin]) {
       const Point c = l.pixel(strip.x[i], strip.y[i]);
@@ -140,7 +145,7 @@ void draw_color_bar(Markup& out, const Strip& strip, const Layout& l, double top
                        {"y", top},
                        {"width", i + 1 < cells ? cell + 0.5 : cell},
                        {"height", 10.0},
-                       {"fill", hex(viridis((i + 0.5) / cells))}});
+                       {"fill", color_at(limits, (i + 0.5) / cells)}});
   }
   out.open("g", {{"text-anchor", "middle"}, {"fill", "#444"}});
   for (const Tick& t : marks.ticks) {

@@ -11,6 +11,9 @@ namespace ddem::reports {
 constexpr std::size_t kMaxDiscs = 20000;
 std::size_t discs_drawn(const Strip& strip);
 
+/// Whether the colours are those of values of both signs.
+inline bool is_signed(Limits limits) { return limits.lower == -limits.upper; }
+
 /// Height that the strip takes when it is `width` pixels wide.
 double strip_height(const Strip& strip, double width);
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ddem::reports {
@@ -50,6 +51,7 @@ struct Verdict {
   std::string reason = {};
   std::vector<Criterion> criteria = {};
   std::string reproduce = {};  ///< the command that runs this case alone
+  std::vector<std::pair<std::string, std::string>> facets = {};  ///< what to filter by: {"packing", "random"}; names of letters and hyphens
 };
 
 /// "[0.32, 0.34] m/s", "at most 0.01", "anything": what a criterion accepts.

@@ -8,6 +8,7 @@
 
 #include "harness/bench/bench_report.h"
 #include "harness/campaign/dispersion_figures.h"
+#include "harness/campaign/facets.h"
 #include "harness/campaign/figures.h"
 #include "harness/campaign/formulas.h"
 #include "harness/campaign/paper_bias.h"
@@ -112,7 +113,7 @@ reports::Section waves(const CampaignResults& r) {
                          "with its reason and gives no velocity. Driven pulses are measured by their centroid and by cross-correlation as well: where the "
                          "three differ, dispersion or scatter of the packing bends the pulse. Their reference is the static speed between the very sections, from "
                          "the compliance and the mass of what lies between."},
-          .figures = {strip_figure(r), paper_figure(r), waveform_figure(r)},
+          .figures = {r.film ? film_figure(*r.film) : strip_figure(r), paper_figure(r), waveform_figure(r)},
           .tables = {picker_table(r)}};
 }
 
@@ -177,8 +178,10 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
                                 s.normal_stiffness, s.normal_stiffness / s.particle_modulus, s.particle_poisson_ratio)};
   report.headlines = headlines(r);
   report.verdicts = verdicts;
+  for (reports::Verdict& v : report.verdicts) v.facets = facets_of(v.case_id);
   report.sections = {overview(r), waves(r), paper(r)};
   if (r.range) report.sections.front().figures.push_back(range_figure(*r.range));
+  if (r.film) report.sections[1].figures.push_back(energy_figure(*r.film));
   if (r.dispersion) report.sections[1].figures.push_back(dispersion_figure(*r.dispersion));
   if (r.sizes) report.sections.push_back(sizes(r));
   if (r.schemes) report.sections.push_back(schemes(r));

@@ -13,6 +13,7 @@
 #include "harness/campaign/stability_study.h"
 #include "harness/campaign/size_study.h"
 #include "harness/campaign/strip_campaign.h"
+#include "harness/campaign/strip_film.h"
 #include "harness/measure/elastic_constants.h"
 #include "harness/run/measure_wave.h"
 #include "harness/run/scene_moduli.h"
@@ -130,6 +131,7 @@ struct CampaignResults {
   std::optional<SizeStudy> sizes;
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
+  std::optional<StripFilm> film;
   double wall_seconds = 0.0;
 
   const StaticOutcome* find(const StripMaterial& key) const;

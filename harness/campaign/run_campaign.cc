@@ -311,6 +311,7 @@ void place_probes(const StripCampaign& s, StripPicture& picture) {
 void run_studies(const StripCampaign& s, CampaignResults& results, const CampaignOptions& options, const std::function<void(std::size_t)>& progress) {
   results.schemes = study_schemes(s, [&] { progress(1); });
   results.range = study_range(s);
+  results.film = film_strip(s);
   results.work_precision = bench::measure_briefly();
   progress(1);
   results.dispersion = study_dispersion(s, options.with_fem);

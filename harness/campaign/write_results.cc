@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/campaign/report_content.h"
+#include "harness/campaign/report_file.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/io/hdf5.h"
@@ -198,7 +199,7 @@ void write_sizes(Hdf5Group& parent, const SizeStudy& study) {
   }
 }
 
-void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
+void write_hdf5(const std::filesystem::path& target, const CampaignResults& r, const reports::Report& report) {
   AtomicFile atomic(target);
   Hdf5File file = Hdf5File::create(atomic.temporary_path());
   {
@@ -228,6 +229,7 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r) {
     strip.write("y", r.picture.packing.y).set_attribute("unit", "m");
     strip.write("radius", r.picture.packing.radius).set_attribute("unit", "m");
     strip.write("displacement", r.picture.displacement).set_attribute("unit", "m");
+    store_report(root, report);
   }
   file.close();
   atomic.commit();
@@ -242,15 +244,11 @@ void prepare_folder(const std::filesystem::path& folder) {
 }
 
 void write_results(const std::filesystem::path& folder, const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
-  write_hdf5(folder / "results.h5", r);
+  const reports::Report report = report_of(r, verdicts);
+  write_hdf5(folder / "results.h5", r, report);
   write_json(folder / "summary.json", summary_json(r, verdicts));
   write_file(folder / "junit.xml", reports::render_junit("ddem validate", verdicts));
-  const reports::Report report = report_of(r, verdicts);
-  write_file(folder / "report.html", reports::render_html(report));
-  prepare_folder(folder / "figures");
-  for (const reports::Section& section : report.sections) {
-    for (const reports::Figure& figure : section.figures) write_file(folder / "figures" / (figure.id + ".svg"), reports::render_svg(figure));
-  }
+  write_report_files(folder, report);
 }
 
 }  // namespace ddem::harness

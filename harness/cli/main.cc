@@ -37,6 +37,8 @@ int run(int argc, char** argv) {
   add_stability_command(app, action);
   add_pack_command(app, action);
   add_bench_command(app, action);
+  add_report_command(app, action);
+  add_scene_reference_command(app, action);
   add_commands_to_come(app, action);
   try {
     app.parse(argc, argv);

@@ -1,12 +1,15 @@
 // ddem run SCENE.toml
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "harness/cli/commands.h"
 #include "harness/cli/output.h"
 #include "harness/cli/run_hdf5.h"
+#include "harness/cli/run_xdmf.h"
 #include "harness/cli/scene_argument.h"
+#include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/io/progress.h"
 #include "harness/run/run_json.h"
@@ -16,6 +19,7 @@ namespace {
 
 struct Options {
   std::string scene, hdf5, csv;
+  bool asks_snapshots = false;
   int snapshots = 1;
   bool json = false;
 };
@@ -57,7 +61,8 @@ void tell_of_contacts(const DemRun& run) {
 
 int run(const Options& o) {
   const Scene scene = load_scene(o.scene, Purpose::simulation);
-  check_outputs({o.hdf5, o.csv}, scene);
+  const std::string xdmf = o.hdf5.empty() || !o.asks_snapshots ? std::string() : xdmf_path(o.hdf5).string();
+  check_outputs({o.hdf5, o.csv, xdmf}, scene);
   Progress progress(kProgressUnits, "simulating");
   std::size_t shown = 0;
   RunOptions options;
@@ -84,7 +89,11 @@ int run(const Options& o) {
   const Signals& s = run.result.signals;
   table.time = s.time;
   for (std::size_t p = 0; p < run.layout.probes.size(); ++p) add_probe(table, run.layout.probes[p].name, s.ux[p], s.uy[p], &s.theta[p]);
-  write_outputs(o.hdf5, o.csv, table, scene, [&](Hdf5Group& root) { write_energy_and_fields(root, run); });
+  write_outputs(o.hdf5, o.csv, table, scene, [&](Hdf5Group& root) {
+    write_energy_and_fields(root, run);
+    if (!xdmf.empty()) write_points(root, run);
+  });
+  if (!xdmf.empty()) write_file(xdmf, xdmf_text(run, std::filesystem::path(o.hdf5).filename().string()));
   if (!o.json) print_summary(run);
   return static_cast<int>(ExitCode::done);
 }
@@ -97,12 +106,15 @@ void add_run_command(CLI::App& app, Action& action) {
   command->footer("Example: ddem run bar.toml --signals bar.csv\nScenes to start from: harness/scenes/*.toml");
   command->add_option("SCENE", o->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", o->hdf5, "write signals, energies, fields, scene and provenance to this HDF5 file");
-  command->add_option("--snapshots", o->snapshots, "fields of all discs at so many times, the last at the end")
+  command->add_option("--snapshots", o->snapshots, "fields of all discs at so many times, the last at the end; with -o FILE.h5 also FILE.xdmf, for ParaView")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_option("--signals", o->csv, "write the probes' signals to this CSV file");
   command->add_flag("--json", o->json, "print the result as JSON");
-  command->callback([o, &action] { action = [o] { return run(*o); }; });
+  command->callback([o, command, &action] {
+    o->asks_snapshots = command->count("--snapshots") > 0;
+    action = [o] { return run(*o); };
+  });
 }
 
 }  // namespace ddem::harness

@@ -96,6 +96,12 @@ struct Hdf5Array {
   std::vector<T> values;
 };
 
+/// A row of a matrix that the file holds.
+struct Hdf5Row {
+  std::string dataset;  ///< its path from the root, such as "/fields/stress_xx"
+  std::size_t row = 0;
+};
+
 class Hdf5Group : public Hdf5Node {
  public:
   Hdf5Group create_group(const std::string& name);
@@ -114,6 +120,10 @@ class Hdf5Group : public Hdf5Node {
                     std::vector<std::size_t> shape = {});
   /// One-dimensional.
   Hdf5Dataset write(const std::string& name, const std::vector<std::string>& texts);
+
+  /// A matrix that stores nothing of its own (HDF5's virtual dataset): column c shows rows[c], and further ones up to `columns` are
+  /// zero; a single column is a list. The rows' datasets must be there, matrices of doubles with rows of equal length.
+  Hdf5Dataset write_view(const std::string& name, std::span<const Hdf5Row> rows, std::size_t columns);
 
   Hdf5Array<double> read_doubles(const std::string& name) const;
   Hdf5Array<int> read_ints(const std::string& name) const;

@@ -163,6 +163,38 @@ TEST(Hdf5, TruncatedFilesAreRefused) {
   std::exit(0);
 }
 
+TEST(Hdf5, ViewsShowRowsOfTheSameFileWhateverItIsCalled) {
+  const Scratch scratch;
+  std::vector<double> x(2 * 1000), y(2 * 1000);
+  std::iota(x.begin(), x.end(), 0.5);
+  std::iota(y.begin(), y.end(), -7.5);
+  {
+    Hdf5File file = Hdf5File::create(scratch / "before.h5");
+    Hdf5Group fields = file.root().create_group("fields"), views = file.root().create_group("views");
+    fields.write("x", x, {2, 1000});
+    fields.write("y", y, {2, 1000});
+    const std::vector<Hdf5Row> both = {{"/fields/x", 1}, {"/fields/y", 0}}, beyond = {{"/fields/x", 2}}, missing = {{"/fields/z", 0}};
+    views.write_view("vector", both, 3);
+    views.write_view("column", std::span(both).first(1), 1);
+    EXPECT_THROW(views.write_view("beyond", beyond, 1), std::invalid_argument);
+    EXPECT_THROW(views.write_view("narrow", both, 1), std::invalid_argument);
+    EXPECT_THROW(views.write_view("missing", missing, 1), MachineError);
+    file.close();
+  }
+  const std::uintmax_t size = std::filesystem::file_size(scratch / "before.h5");
+  EXPECT_LT(size, 4u * 1000 * 8 + 16'384);  // the fields, and no copy of them
+  std::filesystem::rename(scratch / "before.h5", scratch / "after.h5");
+  const Hdf5File file = Hdf5File::open(scratch / "after.h5");
+  const auto vector = file.root().group("views").read_doubles("vector");
+  ASSERT_EQ(vector.shape, (std::vector<std::size_t>{1000, 3}));
+  for (std::size_t i = 0; i < 1000; ++i) {
+    EXPECT_EQ(vector.values[3 * i], x[1000 + i]);
+    EXPECT_EQ(vector.values[3 * i + 1], y[i]);
+    EXPECT_EQ(vector.values[3 * i + 2], 0.0);
+  }
+  EXPECT_EQ(file.root().group("views").read_doubles("column").values, std::vector<double>(x.begin() + 1000, x.end()));
+}
+
 TEST(Hdf5, FullDiskIsExitCodeFourAndNoCrash) {
   // HDF5's own exit handler crashes here (signal 11) if it is left to run.
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // a fresh process: HDF5 must not be in use before

@@ -1,0 +1,116 @@
+#include "harness/campaign/report_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "harness/campaign/write_results.h"
+#include "harness/io/atomic_file.h"
+#include "harness/io/errors.h"
+#include "reports/figure_data.h"
+#include "reports/report_json.h"
+#include "reports/svg.h"
+#include "reports/text.h"
+
+namespace ddem::harness {
+namespace {
+
+constexpr std::int64_t kSchemaVersion = 1;
+
+/// Equal arrays, such as the x of many series, are stored once. NaNs are never equal, and only cost space.
+class ArrayStore {
+ public:
+  explicit ArrayStore(Hdf5Group group) : group_(std::move(group)) {}
+
+  reports::Json put(const std::vector<double>& values) {
+    const auto [place, is_new] = names_.try_emplace(values, fmt::format("{:04d}", names_.size()));
+    if (is_new) group_.write(place->second, values);
+    return place->second;
+  }
+
+ private:
+  struct ByBits {
+    bool operator()(const std::vector<double>& a, const std::vector<double>& b) const {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                          [](double x, double y) { return std::bit_cast<std::uint64_t>(x) < std::bit_cast<std::uint64_t>(y); });
+    }
+  };
+  Hdf5Group group_;
+  std::map<std::vector<double>, std::string, ByBits> names_;
+};
+
+reports::Report read_report(const Hdf5Group& stored) {
+  const std::vector<std::string> structure = stored.read_strings("structure");
+  if (structure.size() != 1) throw std::invalid_argument("structure: not one text");
+  const Hdf5Group arrays = stored.group("arrays");
+  const auto get = [&](const reports::Json& name) { return arrays.read_doubles(name.get<std::string>()).values; };
+  return reports::report_from_json(reports::Json::parse(structure.front()), get);
+}
+
+/// plotly, which the build puts beside the program; empty where it could not be fetched: then figures are SVG.
+std::string plotting_library() {
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::filesystem::path library = program.parent_path().parent_path() / "share/ddem/plotly-cartesian.min.js";
+  return std::filesystem::exists(library) ? read_file(library) : std::string();
+}
+
+struct Drawing {
+  std::filesystem::path name;
+  std::string content;
+};
+
+}  // namespace
+
+void store_report(Hdf5Group& root, const reports::Report& report) {
+  Hdf5Group group = root.create_group("report");
+  group.set_attribute("schema_version", kSchemaVersion);
+  ArrayStore arrays(group.create_group("arrays"));
+  const reports::Json document = reports::to_json(report, [&](const std::vector<double>& values) { return arrays.put(values); });
+  // Bytes that are not UTF-8, of a message of the system perhaps, must not cost the report.
+  group.write("structure", std::vector<std::string>{document.dump(-1, ' ', false, reports::Json::error_handler_t::replace)});
+}
+
+reports::Report load_report(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "results.h5";
+  if (!std::filesystem::exists(path)) {
+    throw InputError(path.string() + ": no such file; give the folder that `ddem validate -o FOLDER` wrote");
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  const Hdf5Group root = file.root();
+  if (!root.contains("report")) {
+    throw InputError(path.string() + ": holds no report: an older ddem wrote it, or another program; run `ddem validate` again");
+  }
+  const Hdf5Group stored = root.group("report");
+  if (const std::int64_t version = stored.int_attribute("schema_version"); version != kSchemaVersion) {
+    throw InputError(fmt::format("{}: schema_version = {}, but this ddem draws {}; use the ddem that wrote it, or run `ddem validate` again",
+                                 stored.place(), version, kSchemaVersion));
+  }
+  try {
+    return read_report(stored);
+  } catch (const reports::Json::exception& e) {
+    throw InputError(fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
+  } catch (const std::invalid_argument& e) {
+    throw InputError(fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
+  }
+}
+
+void write_report_files(const std::filesystem::path& folder, const reports::Report& report) {
+  const std::string plotly = plotting_library();
+  std::vector<Drawing> drawings = {{"report.html", reports::render_html(report, {.plotly = plotly})}};
+  for (const reports::Section& section : report.sections) {
+    for (const reports::Figure& figure : section.figures) {
+      // What a file says its figures are called must not lead out of the folder.
+      const std::filesystem::path stem = std::filesystem::path("figures") / reports::slug(figure.id);
+      drawings.push_back({stem.string() + ".svg", reports::render_svg(figure)});
+      drawings.push_back({stem.string() + ".csv", reports::figure_csv(figure, reports::kAllRows).text});
+    }
+  }
+  prepare_folder(folder / "figures");
+  for (const Drawing& d : drawings) write_file(folder / d.name, d.content);
+}
+
+}  // namespace ddem::harness
