@@ -20,7 +20,7 @@ reports::Color color_of(const PrecisionPoint& p) {
     const auto found = by_degree.find(p.scheme.at(1));
     return found == by_degree.end() ? automatic : found->second;
   }
-  return p.scheme == "rigid" ? blue : p.scheme == "lagged" ? green : purple;
+  return p.scheme.starts_with("rigid") ? blue : p.scheme == "lagged" ? green : purple;
 }
 
 /// One series for each `name` of the points that have one, in their order; error against seconds.
@@ -33,7 +33,7 @@ void add_series(reports::Plot& plot, const std::vector<PrecisionPoint>& points, 
     if (series == plot.series.end()) {
       plot.series.push_back({.name = called, .kind = reports::SeriesKind::line_markers, .color = color_of(p)});
       series = std::prev(plot.series.end());
-      if (called.ends_with("bar")) series->dash = reports::Dash::dashed;
+      if (called.ends_with("bar") || p.scheme.ends_with("exact")) series->dash = reports::Dash::dashed;
     }
     series->x.push_back(p.seconds);
     series->y.push_back(p.status == "ok" ? p.*error : kNone);
@@ -95,7 +95,7 @@ reports::Figure precision_figure(const std::vector<PrecisionPoint>& points) {
                          .title = "Run time against error",
                          .caption = "Finite elements: a Gaussian pulse against d'Alembert's solution, a line for each degree and wave (dashed: the bar with "
                                     "nu = 0), a mark for each mesh. Discs: a Gaussian shear pulse in the hexagonal lattice; first against the exact motion "
-                                    "of the same lattice, which leaves the error of the time step and of lagging (a mark for each step), then against "
+                                    "of the same lattice, which leaves the error of the time step and of lagging (a mark for each step, and one exact in time), then against "
                                     "the continuum, which adds that of the discs' size. Times depend on the machine and on what else it does."};
   reports::Plot fem = panel("finite elements, against d'Alembert");
   add_series(fem, points, [](const PrecisionPoint& p) { return p.solver == "FE" ? p.scheme : std::string(); }, &PrecisionPoint::error);

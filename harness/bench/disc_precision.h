@@ -10,7 +10,7 @@ namespace ddem::harness::bench {
 
 struct DiscPlan {
   std::vector<int> columns;             ///< discs along the pulse's 16.4 mm; a fifth of them across
-  std::vector<double> step_fractions;   ///< for each
+  std::vector<double> step_fractions;   ///< for each; and once exact in time, where the scheme allows it
   double seconds_a_point = 0.0;         ///< runs are repeated for so long; the best counts
 };
 

@@ -8,7 +8,7 @@ namespace ddem::harness::bench {
 
 struct PrecisionPoint {
   std::string solver;  ///< "FE", "DEM", "DDEM"
-  std::string scheme;  ///< of the FE: degree and wave, "p4, shear"; of discs: "rigid", "lagged", "implicit"
+  std::string scheme;  ///< of the FE: degree and wave, "p4, shear"; of discs: "rigid", "lagged", "implicit"; "rigid, exact"
   std::string mesh;    ///< elements or discs along and across
   std::size_t discs_or_dofs = 0;
   /// Of the critical step; of the FE, which is exact in time, what its states are marched with.

@@ -19,8 +19,7 @@ namespace {
 
 struct Options {
   std::string scene, hdf5, csv;
-  bool asks_snapshots = false;
-  int snapshots = 1;
+  std::optional<int> snapshots;
   bool json = false;
 };
 
@@ -61,7 +60,7 @@ void tell_of_contacts(const DemRun& run) {
 
 int run(const Options& o) {
   const Scene scene = load_scene(o.scene, Purpose::simulation);
-  const std::string xdmf = o.hdf5.empty() || !o.asks_snapshots ? std::string() : xdmf_path(o.hdf5).string();
+  const std::string xdmf = o.hdf5.empty() || !o.snapshots ? std::string() : xdmf_path(o.hdf5).string();
   check_outputs({o.hdf5, o.csv, xdmf}, scene);
   Progress progress(kProgressUnits, "simulating");
   std::size_t shown = 0;
@@ -72,7 +71,7 @@ int run(const Options& o) {
     return true;
   };
   if (!o.hdf5.empty()) {
-    options.snapshots = o.snapshots;
+    options.snapshots = o.snapshots.value_or(scene.time.integrator == Integrator::exact ? 0 : 1);
     options.energy_samples = kEnergySamples;
   }
   const DemRun run = run_scene(scene, options);
@@ -106,15 +105,13 @@ void add_run_command(CLI::App& app, Action& action) {
   command->footer("Example: ddem run bar.toml --signals bar.csv\nScenes to start from: harness/scenes/*.toml");
   command->add_option("SCENE", o->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", o->hdf5, "write signals, energies, fields, scene and provenance to this HDF5 file");
-  command->add_option("--snapshots", o->snapshots, "fields of all discs at so many times, the last at the end; with -o FILE.h5 also FILE.xdmf, for ParaView")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  command->add_option("--snapshots", o->snapshots,
+                      "fields of all discs at so many times, the last at the end (1; none with integrator = \"exact\"); with -o FILE.h5 "
+                      "also FILE.xdmf, for ParaView")
+      ->check(CLI::Range(1, 10000));
   command->add_option("--signals", o->csv, "write the probes' signals to this CSV file");
   command->add_flag("--json", o->json, "print the result as JSON");
-  command->callback([o, command, &action] {
-    o->asks_snapshots = command->count("--snapshots") > 0;
-    action = [o] { return run(*o); };
-  });
+  command->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace ddem::harness

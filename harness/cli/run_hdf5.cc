@@ -26,7 +26,7 @@ void write_tensor(Hdf5Group& fields, const std::string& name, const std::string&
 void write_energy(Hdf5Group& root, const SimulationResult& result) {
   Hdf5Group energy = root.create_group("energy");
   if (result.energy.empty()) {
-    energy.set_attribute("status", "not audited: nonlinear kinematics, or no step");
+    energy.set_attribute("status", "not audited: nonlinear kinematics, integrator = \"exact\", or no step");
     return;
   }
   const auto write = [&](const char* name, const char* unit, const auto& of) {

@@ -58,10 +58,13 @@ long choose_steps(const Scene& scene, const DemRun& run, double step) {
       throw InputError(scene_problem(scene, "time.end", "without pairs of probes and a pulse there is no last peak to wait for",
                                      "give time.end or time.steps"));
     }
-    // The kinematic estimate is up to 25 % too fast. After its window no probe is looked at.
+    // The kinematic estimate is up to 25 % too fast. After the last window no probe is looked at.
+    double windows = 0.0;
     for (const Probe& p : run.layout.probes) {
-      seconds = std::max(seconds, std::min(time_of_passage(run.context, p.x, 0.45), causal_window(run.context, p.x).end));
+      seconds = std::max(seconds, time_of_passage(run.context, p.x, 0.45));
+      windows = std::max(windows, causal_window(run.context, p.x).end);
     }
+    seconds = std::min(seconds, windows);
   }
   const double steps = std::ceil(seconds / step);
   if (!(steps <= static_cast<double>(kMostSteps))) {

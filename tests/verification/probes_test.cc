@@ -162,6 +162,28 @@ INSTANTIATE_TEST_SUITE_P(Strips, Layout, testing::Values(StripPacking::hexagonal
                            return p.param == StripPacking::hexagonal ? "Hexagonal" : "Random";
                          });
 
+/// Without an end a run stops where no probe is looked at any more, for long pulses before a slow wave's last peak would have
+/// passed. What it measures is what a longer one does, to the bit.
+TEST(RunWithoutEnd, MeasuresWhatALongerOneDoes) {
+  for (const StripWave wave : {StripWave::p, StripWave::shear}) {
+    const DirectionalSpeeds statics = scene_moduli(strip(StripPacking::hexagonal, Protocol::long_wave, wave)).speeds().value();
+    const double speed = wave == StripWave::p ? statics.p : statics.s;
+    Scene scene = strip(StripPacking::hexagonal, Protocol::long_wave, wave, speed);
+    std::get<Drive>(scene.load).duration = 0.8 * StripCampaign{}.length / speed;
+    Scene longer = scene;
+    longer.time.end = EndTime{2.0 * StripCampaign{}.length / speed + std::get<Drive>(scene.load).duration};
+    const DemRun a = run_scene(scene, {speed, {}}), b = run_scene(longer, {speed, {}});
+    double last = 0.0;
+    for (const Probe& p : a.layout.probes) last = std::max(last, causal_window(a.context, p.x).end);
+    EXPECT_EQ(a.result.steps_done, static_cast<long>(std::ceil(last / a.time_step)));
+    const PickedSpeeds ours = picked_speeds(a.measurement.value()), theirs = picked_speeds(b.measurement.value());
+    EXPECT_TRUE(ours.peak && ours.correlation);
+    EXPECT_EQ(ours.peak, theirs.peak);
+    EXPECT_EQ(ours.centroid, theirs.centroid);
+    EXPECT_EQ(ours.correlation, theirs.correlation);
+  }
+}
+
 /// Half to twice the expected speed, and never beyond the reflection: 2 L - s = 28 mm at 2 km/s.
 TEST(CausalWindow, EndsBeforeTheReflection) {
   WaveContext c;

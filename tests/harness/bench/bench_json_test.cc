@@ -29,7 +29,7 @@ TEST(Bench, HasItsPartsAsJson) {
   const Json j = Json::parse(to_text(bench_json(results)));  // to_text throws on numbers that are none
   ASSERT_EQ(j["kernels"].size(), 2u);
   for (const char* key : {"law", "discs", "threads", "nanoseconds_per_bond_step"}) EXPECT_TRUE(j["kernels"][0].contains(key)) << key;
-  ASSERT_EQ(j["work_precision"].size(), results.fem_failure.empty() ? 5u : 3u);
+  ASSERT_EQ(j["work_precision"].size(), results.fem_failure.empty() ? 7u : 5u);
   for (const auto& p : j["work_precision"]) {
     for (const char* key : {"solver", "scheme", "discs_or_dofs", "step_fraction", "seconds", "error"}) EXPECT_TRUE(p.contains(key)) << key;
     EXPECT_GT(p["seconds"].get<double>(), 0.0);

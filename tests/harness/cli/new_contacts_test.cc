@@ -43,6 +43,15 @@ TEST_F(NewContactsRun, TheThirdDiscWaitsForTheSecond) {
   }
 }
 
+TEST_F(NewContactsRun, AreNotExactInTime) {
+  const std::string exact = replaced(scene_, "[time]\n", "[time]\nintegrator = \"exact\"\n");
+  write("scene.toml", exact);
+  expect_refused({"time.integrator = \"exact\": discs that are not bonded come to touch", "use integrator = \"verlet\", lower the amplitude"});
+  // A third of the amplitude leaves the gap open.
+  write("u0.csv", "ux,uy,theta\n3e-9,0,0\n-3e-9,0,0\n0,0,0\n");
+  EXPECT_EQ(ddem({"run", path("scene.toml")}).exit_code, 0);
+}
+
 TEST_F(NewContactsRun, AreSwitchedOff) {
   write("scene.toml", replaced(scene_, "stiffness_ratio = 0.0", "stiffness_ratio = 0.0\nnew_contacts = \"off\""));
   const auto run = ddem({"run", path("scene.toml")});
