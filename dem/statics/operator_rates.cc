@@ -21,7 +21,8 @@ Eigen::Vector3d material_rate(const DeformationParameters& d) {
   }
   const double one = 1.0 - n * n;
   const Eigen::Vector3d by_e(1.0 / one, n / one, 2.0 / (1.0 + n));
-  const Eigen::Vector3d by_n(2.0 * e * n / (one * one), e * (1.0 + n * n) / (one * one), -2.0 * e / ((1.0 + n) * (1.0 + n)));
+  const Eigen::Vector3d by_n(2.0 * e * n / (one * one), e * (1.0 + n * n) / (one * one),
+                             -2.0 * e / ((1.0 + n) * (1.0 + n)));
   return by_e * e_rate + by_n * n_rate;
 }
 
@@ -48,10 +49,14 @@ OperatorRates operator_rates(const Assembly& a, const Operators& op, const Conta
                              const DeformationParameters& deformation, Parameter parameter) {
   OperatorRates rates;
   rates.stiffness = Eigen::VectorXd::Zero(op.stiffness.size());
-  if (op.deformable()) rates.strain_stiffness = SparseMatrix(op.strain_stiffness.rows(), op.strain_stiffness.cols());
+  if (op.deformable())
+    rates.strain_stiffness = SparseMatrix(op.strain_stiffness.rows(), op.strain_stiffness.cols());
   if (parameter == Parameter::stiffness_ratio) {
-    if (op.rows_per_bond != 2) throw std::invalid_argument("moduli have no derivative with respect to k_t/k_n at 0, where rotations drop out");
-    for (Eigen::Index r = 1; r < op.stiffness.size(); r += 2) rates.stiffness[r] = op.stiffness[r] / contact.stiffness_ratio;
+    if (op.rows_per_bond != 2)
+      throw std::invalid_argument(
+          "moduli have no derivative with respect to k_t/k_n at 0, where rotations drop out");
+    for (Eigen::Index r = 1; r < op.stiffness.size(); r += 2)
+      rates.stiffness[r] = op.stiffness[r] / contact.stiffness_ratio;
     return rates;
   }
   if (!op.deformable()) throw std::invalid_argument("rigid discs have no softness and no Poisson's ratio");

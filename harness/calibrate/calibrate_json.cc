@@ -7,15 +7,22 @@
 namespace ddem::harness {
 namespace {
 
-bool by_modulus(const Scene& scene) { return scene.contact && std::holds_alternative<ContactModulus>(scene.contact->stiffness); }
+bool by_modulus(const Scene& scene) {
+  return scene.contact && std::holds_alternative<ContactModulus>(scene.contact->stiffness);
+}
 
-const char* stiffness_key(const Scene& scene) { return by_modulus(scene) ? "contact_modulus" : "normal_stiffness"; }
+const char* stiffness_key(const Scene& scene) {
+  return by_modulus(scene) ? "contact_modulus" : "normal_stiffness";
+}
 
 const char* parameter_key(Parameter p) {
   switch (p) {
-    case Parameter::stiffness_ratio: return "stiffness_ratio";
-    case Parameter::log_softness: return "softness";
-    case Parameter::particle_poisson_ratio: break;
+    case Parameter::stiffness_ratio:
+      return "stiffness_ratio";
+    case Parameter::log_softness:
+      return "softness";
+    case Parameter::particle_poisson_ratio:
+      break;
   }
   return "particle_poisson_ratio";
 }
@@ -36,8 +43,11 @@ Json or_status(const std::optional<MeanWithConfidence>& m, const std::string& wh
 }
 
 Json target_json(const Target& t) {
-  Json j{{"young_modulus", t.young_modulus}, {"poisson_ratio", t.poisson_ratio}, {"solid_young_modulus", t.solid_young_modulus},
-         {"solid_poisson_ratio", t.solid_poisson_ratio}, {"conversion", t.conversion}};
+  Json j{{"young_modulus", t.young_modulus},
+         {"poisson_ratio", t.poisson_ratio},
+         {"solid_young_modulus", t.solid_young_modulus},
+         {"solid_poisson_ratio", t.solid_poisson_ratio},
+         {"conversion", t.conversion}};
   j["young_modulus_uncertainty"] = t.young_modulus * std::sqrt(t.covariance(0, 0));
   j["poisson_ratio_uncertainty"] = std::sqrt(t.covariance(1, 1));
   if (t.density) j["density"] = *t.density;
@@ -57,14 +67,16 @@ Json parameters_json(const Scene& scene, const FoundParameters& f) {
 
 Json uncertainty_json(const Scene& scene, const FoundParameters& f) {
   if (!f.solved_for) return {{"status", "no free parameter answers to nu"}};
-  return {{stiffness_key(scene), f.stiffness_stddev}, {parameter_key(*f.solved_for), f.solved_stddev},
+  return {{stiffness_key(scene), f.stiffness_stddev},
+          {parameter_key(*f.solved_for), f.solved_stddev},
           {"meaning", "standard deviations from the target's own, other parameters held"}};
 }
 
 Json ranges_json(const Calibration& c) {
   Json list = Json::array();
   for (const VariantRange& v : c.ranges) {
-    list.push_back({{"variant", v.name}, {"lowest", v.poisson.lowest}, {"highest", v.poisson.highest}, {"own", v.own}});
+    list.push_back(
+        {{"variant", v.name}, {"lowest", v.poisson.lowest}, {"highest", v.poisson.highest}, {"own", v.own}});
   }
   return list;
 }
@@ -94,13 +106,17 @@ Json proof_json(const Calibration& c, const Proof& p) {
   j["poisson_ratio_residual"] = poisson.mean - c.target.poisson_ratio;
   const std::string none = p.no_waves.empty() ? "no seed gave a speed" : p.no_waves;
   j["shear_over_static"] = or_status(dynamic_deviation(p, &ProofSeed::shear, &ProofWave::peak), none);
-  j["shear_over_static_by_centroid"] = or_status(dynamic_deviation(p, &ProofSeed::shear, &ProofWave::centroid), none);
+  j["shear_over_static_by_centroid"] =
+      or_status(dynamic_deviation(p, &ProofSeed::shear, &ProofWave::centroid), none);
   j["p_over_static"] = or_status(dynamic_deviation(p, &ProofSeed::p, &ProofWave::peak), none);
   j["p_over_static_by_centroid"] = or_status(dynamic_deviation(p, &ProofSeed::p, &ProofWave::centroid), none);
   j["finite_width_bar_bias"] = or_status(bar_bias(p), none);
   j["seeds"] = Json::array();
   for (const ProofSeed& s : p.seeds) {
-    Json one{{"seed", s.seed}, {"young_modulus", s.young_modulus}, {"poisson_ratio", s.poisson_ratio}, {"bulk_bar_velocity", s.bulk_bar}};
+    Json one{{"seed", s.seed},
+             {"young_modulus", s.young_modulus},
+             {"poisson_ratio", s.poisson_ratio},
+             {"bulk_bar_velocity", s.bulk_bar}};
     if (!p.unseen) one.erase("seed");
     if (s.strip_bar) one["strip_bar_velocity"] = *s.strip_bar;
     one["shear"] = wave_json(s.shear, none);
@@ -118,12 +134,19 @@ std::string with_interval(const MeanWithConfidence& m, const char* format, doubl
 }
 
 std::string parameters_text(const Scene& scene, const FoundParameters& f) {
-  const auto sigma = [&](Parameter p) { return f.solved_for == p && f.solved_stddev > 0.0 ? fmt::format(" +- {:.2g}", f.solved_stddev) : std::string(); };
-  std::string t = fmt::format("  {} = {:.9g} {}{}\n  k_t/k_n = {:.9g}{}\n", by_modulus(scene) ? "contact modulus" : "k_n", f.stiffness, by_modulus(scene) ? "Pa" : "N/m",
-                              f.stiffness_stddev > 0.0 ? fmt::format(" +- {:.2g}", f.stiffness_stddev) : "", f.point.stiffness_ratio, sigma(Parameter::stiffness_ratio));
+  const auto sigma = [&](Parameter p) {
+    return f.solved_for == p && f.solved_stddev > 0.0 ? fmt::format(" +- {:.2g}", f.solved_stddev)
+                                                      : std::string();
+  };
+  std::string t =
+      fmt::format("  {} = {:.9g} {}{}\n  k_t/k_n = {:.9g}{}\n", by_modulus(scene) ? "contact modulus" : "k_n",
+                  f.stiffness, by_modulus(scene) ? "Pa" : "N/m",
+                  f.stiffness_stddev > 0.0 ? fmt::format(" +- {:.2g}", f.stiffness_stddev) : "",
+                  f.point.stiffness_ratio, sigma(Parameter::stiffness_ratio));
   if (scene.deformation) {
-    t += fmt::format("  k_n/E_p = {:.6g}{}, E_p = {:.9g} Pa\n  nu_p = {:.6g}{}\n", f.point.softness, sigma(Parameter::log_softness), f.particle_young_modulus,
-                     f.point.particle_poisson_ratio, sigma(Parameter::particle_poisson_ratio));
+    t += fmt::format("  k_n/E_p = {:.6g}{}, E_p = {:.9g} Pa\n  nu_p = {:.6g}{}\n", f.point.softness,
+                     sigma(Parameter::log_softness), f.particle_young_modulus, f.point.particle_poisson_ratio,
+                     sigma(Parameter::particle_poisson_ratio));
   }
   if (f.particle_density) t += fmt::format("  density of a disc = {:.6g} kg/m3\n", *f.particle_density);
   return t;
@@ -132,7 +155,8 @@ std::string parameters_text(const Scene& scene, const FoundParameters& f) {
 std::string ranges_text(const Calibration& c) {
   std::string t = "Poisson's ratios within reach on this assembly, k_t/k_n from 0 to 1:\n";
   for (const VariantRange& v : c.ranges) {
-    t += fmt::format("  {:<12} {:7.4f} to {:.4f}{}\n", v.name, v.poisson.lowest, v.poisson.highest, v.own ? "   (this scene, what is free)" : "");
+    t += fmt::format("  {:<12} {:7.4f} to {:.4f}{}\n", v.name, v.poisson.lowest, v.poisson.highest,
+                     v.own ? "   (this scene, what is free)" : "");
   }
   return t;
 }
@@ -142,20 +166,29 @@ std::string deviation_line(const char* what, const std::optional<MeanWithConfide
 }
 
 std::string proof_text(const Calibration& c, const Proof& p) {
-  const auto young = mean_with_confidence(of_seeds(p, &ProofSeed::young_modulus)), poisson = mean_with_confidence(of_seeds(p, &ProofSeed::poisson_ratio));
-  std::string t = fmt::format("Proof on {} (mean +- 95 % confidence):\n", p.unseen ? fmt::format("seeds {} to {}, which were not fitted", p.seeds.front().seed, p.seeds.back().seed)
-                                                                                 : "the fitted packing, which has no seeds");
-  t += fmt::format("  static E = {} Pa ({:+.3f} %), nu = {} ({:+.5f})\n", with_interval(young, "{:.6g}"), 100.0 * (young.mean / c.target.young_modulus - 1.0),
-                   with_interval(poisson, "{:.5f}"), poisson.mean - c.target.poisson_ratio);
+  const auto young = mean_with_confidence(of_seeds(p, &ProofSeed::young_modulus)),
+             poisson = mean_with_confidence(of_seeds(p, &ProofSeed::poisson_ratio));
+  std::string t = fmt::format("Proof on {} (mean +- 95 % confidence):\n",
+                              p.unseen ? fmt::format("seeds {} to {}, which were not fitted",
+                                                     p.seeds.front().seed, p.seeds.back().seed)
+                                       : "the fitted packing, which has no seeds");
+  t += fmt::format("  static E = {} Pa ({:+.3f} %), nu = {} ({:+.5f})\n", with_interval(young, "{:.6g}"),
+                   100.0 * (young.mean / c.target.young_modulus - 1.0), with_interval(poisson, "{:.5f}"),
+                   poisson.mean - c.target.poisson_ratio);
   if (!p.no_waves.empty()) return t + "  no waves: " + p.no_waves + "\n";
-  t += deviation_line("shear pulse over its own static speed", dynamic_deviation(p, &ProofSeed::shear, &ProofWave::peak));
-  t += deviation_line("P pulse over its own static speed", dynamic_deviation(p, &ProofSeed::p, &ProofWave::peak));
-  t += deviation_line("the same by centroid: shear", dynamic_deviation(p, &ProofSeed::shear, &ProofWave::centroid));
+  t += deviation_line("shear pulse over its own static speed",
+                      dynamic_deviation(p, &ProofSeed::shear, &ProofWave::peak));
+  t += deviation_line("P pulse over its own static speed",
+                      dynamic_deviation(p, &ProofSeed::p, &ProofWave::peak));
+  t += deviation_line("the same by centroid: shear",
+                      dynamic_deviation(p, &ProofSeed::shear, &ProofWave::centroid));
   t += deviation_line("the same by centroid: P", dynamic_deviation(p, &ProofSeed::p, &ProofWave::centroid));
   t += deviation_line("bar of the free strip over the bulk's (width)", bar_bias(p));
   for (const ProofSeed& s : p.seeds) {
     for (const auto* w : {&s.shear, &s.p}) {
-      if (*w && !(*w)->failure.empty()) t += fmt::format("  seed {}: no {} speed: {}\n", s.seed, w == &s.shear ? "shear" : "P", (*w)->failure);
+      if (*w && !(*w)->failure.empty())
+        t +=
+            fmt::format("  seed {}: no {} speed: {}\n", s.seed, w == &s.shear ? "shear" : "P", (*w)->failure);
     }
   }
   return t;
@@ -179,12 +212,14 @@ Json calibration_json(const Scene& scene, const Calibration& c, const std::optio
     j["uncertainty"] = uncertainty_json(scene, c.found);
   }
   j["seeds"] = c.seeds;
-  j["over_seeds"] = {{"young_modulus", over_seeds(c.young_over_seeds)}, {"poisson_ratio", over_seeds(c.poisson_over_seeds)}};
+  j["over_seeds"] = {{"young_modulus", over_seeds(c.young_over_seeds)},
+                     {"poisson_ratio", over_seeds(c.poisson_over_seeds)}};
   j["solid_fraction"] = c.solid_fraction;
   j["reachable"] = ranges_json(c);
   if (c.stability) {
     j["stability"] = {{"fixed_point_radius", c.stability->radius}};
-    j["stability"]["limit"] = c.stability->limit ? Json(*c.stability->limit) : Json("none: implicit strains are stable at any softness");
+    j["stability"]["limit"] = c.stability->limit ? Json(*c.stability->limit)
+                                                 : Json("none: implicit strains are stable at any softness");
     if (!c.stability->remark.empty()) j["stability"]["remark"] = c.stability->remark;
   }
   j["notes"] = c.notes;
@@ -194,24 +229,29 @@ Json calibration_json(const Scene& scene, const Calibration& c, const std::optio
 }
 
 std::string calibration_text(const Scene& scene, const Calibration& c, const std::optional<Proof>& proof) {
-  std::string t = fmt::format("Target: E = {:.8g} Pa, nu = {:.8g} in the plane ({})\n", c.target.young_modulus, c.target.poisson_ratio, c.target.conversion);
+  std::string t = fmt::format("Target: E = {:.8g} Pa, nu = {:.8g} in the plane ({})\n",
+                              c.target.young_modulus, c.target.poisson_ratio, c.target.conversion);
   t += ranges_text(c);
   if (!c.feasible) {
-    t += fmt::format("INFEASIBLE: nu = {:.6g} is out of reach. Nearest: nu = {:.6g}, with\n", c.target.poisson_ratio, c.poisson_ratio);
+    t += fmt::format("INFEASIBLE: nu = {:.6g} is out of reach. Nearest: nu = {:.6g}, with\n",
+                     c.target.poisson_ratio, c.poisson_ratio);
   } else {
     t += fmt::format("Found ({}):\n", c.choice);
   }
   t += parameters_text(scene, c.found);
   for (const std::string& help : c.what_helps) t += fmt::format("  what would help: {}\n", help);
-  t += fmt::format("They give E = {:.9g} Pa ({:+.2g}), nu = {:.9g} ({:+.2g})", c.young_modulus, c.young_residual(), c.poisson_ratio, c.poisson_residual());
+  t += fmt::format("They give E = {:.9g} Pa ({:+.2g}), nu = {:.9g} ({:+.2g})", c.young_modulus,
+                   c.young_residual(), c.poisson_ratio, c.poisson_residual());
   if (c.seeds.size() > 1) {
-    t += fmt::format(", means over seeds {} to {}; one packing scatters by {:.2g} % and {:.2g}", c.seeds.front(), c.seeds.back(),
-                     100.0 * c.young_over_seeds.stddev / c.young_modulus, c.poisson_over_seeds.stddev);
+    t += fmt::format(", means over seeds {} to {}; one packing scatters by {:.2g} % and {:.2g}",
+                     c.seeds.front(), c.seeds.back(), 100.0 * c.young_over_seeds.stddev / c.young_modulus,
+                     c.poisson_over_seeds.stddev);
   }
   t += "\n";
   if (c.stability) {
     t += fmt::format("Spectral radius of K B: {:.4g}{}\n", c.stability->radius,
-                     c.stability->limit ? fmt::format(", which must stay below {:.4g}", *c.stability->limit) : "; implicit strains are stable at any");
+                     c.stability->limit ? fmt::format(", which must stay below {:.4g}", *c.stability->limit)
+                                        : "; implicit strains are stable at any");
     if (!c.stability->remark.empty()) t += "Beware: " + c.stability->remark + "\n";
   }
   for (const std::string& note : c.notes) t += "Note: " + note + "\n";

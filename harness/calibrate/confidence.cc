@@ -6,7 +6,8 @@
 namespace ddem::harness {
 namespace {
 
-/// P(|T| <= t), Abramowitz & Stegun 26.7.3 and 26.7.4: with theta = atan(t/sqrt(n)) a finite sum over cos^2 theta.
+/// P(|T| <= t), Abramowitz & Stegun 26.7.3 and 26.7.4: with theta = atan(t/sqrt(n)) a finite sum over cos^2
+/// theta.
 double central_probability(double t, int n) {
   const double theta = std::atan(t / std::sqrt(static_cast<double>(n)));
   const double c = std::cos(theta), s = std::sin(theta);

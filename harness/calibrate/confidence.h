@@ -5,10 +5,12 @@
 
 namespace ddem::harness {
 
-/// Two-sided quantile of Student's t distribution: P(|T| <= t) = `confidence`, `freedom` >= 1 degrees of freedom. Right to 1e-10.
+/// Two-sided quantile of Student's t distribution: P(|T| <= t) = `confidence`, `freedom` >= 1 degrees of
+/// freedom. Right to 1e-10.
 double student_t(double confidence, int freedom);
 
-/// Mean and half-width of its 95 % confidence interval, t s/sqrt(n); no half-width for a single value (negative there).
+/// Mean and half-width of its 95 % confidence interval, t s/sqrt(n); no half-width for a single value
+/// (negative there).
 struct MeanWithConfidence {
   double mean = 0.0;
   double half_width = -1.0;

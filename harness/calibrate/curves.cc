@@ -44,7 +44,8 @@ CurvePoint kinematic_point(const Scene& scene, const StaticModel& model, const M
   Scene unit = scene;
   unit.contact = Contact{};
   const ContactParameters c = model.contact(at, 1.0);
-  unit.contact->stiffness = c.uniform() ? std::variant<NormalStiffness, ContactModulus>(NormalStiffness{1.0}) : ContactModulus{1.0};
+  unit.contact->stiffness =
+      c.uniform() ? std::variant<NormalStiffness, ContactModulus>(NormalStiffness{1.0}) : ContactModulus{1.0};
   unit.contact->stiffness_ratio = at.stiffness_ratio;
   unit.deformation.reset();
   if (model.deformable()) unit.deformation = model.discs(at, 1.0);
@@ -61,7 +62,8 @@ CurvePoint kinematic_point(const Scene& scene, const StaticModel& model, const M
 
 /// As the scene asks for it; else that of the assemblies, whose open ends have fewer.
 double coordination_of(const Scene& scene, const StaticModel& model) {
-  if (const auto* asked = std::get_if<BondCoordination>(&scene.assembly.bonding)) return asked->bonds_per_disc;
+  if (const auto* asked = std::get_if<BondCoordination>(&scene.assembly.bonding))
+    return asked->bonds_per_disc;
   double sum = 0.0;
   for (const SeedAssembly& a : model.assemblies()) sum += coordination(a.assembly.bonds, a.assembly.size());
   return sum / static_cast<double>(model.assemblies().size());
@@ -94,16 +96,22 @@ DesignCurve curve_of(const Scene& scene, const StaticModel& model, const CurveOp
   return curve;
 }
 
-reports::Plot panel(const std::vector<DesignCurve>& curves, const char* label, const char* unit, double CurvePoint::*kinematic, MeanWithConfidence CurvePoint::*statics) {
-  static constexpr reports::Color kColors[] = {reports::Color::blue, reports::Color::vermilion, reports::Color::green, reports::Color::orange, reports::Color::purple};
+reports::Plot panel(const std::vector<DesignCurve>& curves, const char* label, const char* unit,
+                    double CurvePoint::*kinematic, MeanWithConfidence CurvePoint::*statics) {
+  static constexpr reports::Color kColors[] = {reports::Color::blue, reports::Color::vermilion,
+                                               reports::Color::green, reports::Color::orange,
+                                               reports::Color::purple};
   reports::Plot plot{.x = {.label = "kₜ/kₙ"}, .y = {.label = label, .unit = unit}};
   std::size_t color = 0;
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const DesignCurve& c = curves[k];
     if (k > 0 && !c.deformable) ++color;  // each assembly begins with its rigid discs
     const std::string name = fmt::format("{}, {:.1f} bonds a disc", c.model, c.coordination);
-    reports::Series line{.name = name, .color = kColors[color % std::size(kColors)], .dash = c.deformable ? reports::Dash::dashed : reports::Dash::solid};
-    reports::Series estimate{.name = k < 2 ? name + ", kinematic" : "", .color = line.color, .dash = reports::Dash::dotted};
+    reports::Series line{.name = name,
+                         .color = kColors[color % std::size(kColors)],
+                         .dash = c.deformable ? reports::Dash::dashed : reports::Dash::solid};
+    reports::Series estimate{
+        .name = k < 2 ? name + ", kinematic" : "", .color = line.color, .dash = reports::Dash::dotted};
     for (const CurvePoint& p : c.points) {
       line.x.push_back(p.stiffness_ratio), line.y.push_back((p.*statics).mean);
       estimate.x.push_back(p.stiffness_ratio), estimate.y.push_back(p.*kinematic);
@@ -116,12 +124,16 @@ reports::Plot panel(const std::vector<DesignCurve>& curves, const char* label, c
 
 }  // namespace
 
-std::size_t curve_count(const Scene& scene) { return 2 * assemblies_of(scene).size(); }
+std::size_t curve_count(const Scene& scene) {
+  return 2 * assemblies_of(scene).size();
+}
 
-std::vector<DesignCurve> design_curves(const Scene& scene, const CurveOptions& options, const std::function<void()>& on_progress) {
+std::vector<DesignCurve> design_curves(const Scene& scene, const CurveOptions& options,
+                                       const std::function<void()>& on_progress) {
   std::vector<DesignCurve> curves;
   for (const Scene& s : assemblies_of(scene)) {
-    const StaticModel model(s, seed_assemblies(s, seed_of(s).value_or(0), options.seeds, options.threads), options.threads);
+    const StaticModel model(s, seed_assemblies(s, seed_of(s).value_or(0), options.seeds, options.threads),
+                            options.threads);
     for (const DeformationParameters& d : {DeformationParameters{}, deformable_of(scene)}) {
       curves.push_back(curve_of(s, model.variant(d), options));
       on_progress();
@@ -131,25 +143,31 @@ std::vector<DesignCurve> design_curves(const Scene& scene, const CurveOptions& o
 }
 
 reports::Figure curve_figure(const std::vector<DesignCurve>& curves) {
-  const auto soft = std::find_if(curves.begin(), curves.end(), [](const DesignCurve& c) { return c.deformable; });
-  return {.id = "design-curves",
-          .title = "Poisson's ratio and stiffness over kₜ/kₙ",
-          .caption = fmt::format("Static moduli of the assembly, mean over its seeds. Full lines: rigid discs; dashed: deformable ones, kₙ/Eₚ = {:g}, νₚ = {:g}. "
-                                 "Dotted: kinematic estimate of the first assembly, which takes every disc along with the mean strain. Choose kₜ/kₙ on the left, "
-                                 "read E/kₙ on the right, and kₙ from the modulus that you want.",
-                                 soft->softness, soft->particle_poisson_ratio),
-          .panels = {panel(curves, "Poisson's ratio", "", &CurvePoint::kinematic_poisson, &CurvePoint::poisson),
-                     panel(curves, "E/kₙ", "1/m", &CurvePoint::kinematic_young, &CurvePoint::young)}};
+  const auto soft =
+      std::find_if(curves.begin(), curves.end(), [](const DesignCurve& c) { return c.deformable; });
+  return {
+      .id = "design-curves",
+      .title = "Poisson's ratio and stiffness over kₜ/kₙ",
+      .caption = fmt::format("Static moduli of the assembly, mean over its seeds. Full lines: rigid discs; "
+                             "dashed: deformable ones, kₙ/Eₚ = {:g}, νₚ = {:g}. "
+                             "Dotted: kinematic estimate of the first assembly, which takes every disc along "
+                             "with the mean strain. Choose kₜ/kₙ on the left, "
+                             "read E/kₙ on the right, and kₙ from the modulus that you want.",
+                             soft->softness, soft->particle_poisson_ratio),
+      .panels = {panel(curves, "Poisson's ratio", "", &CurvePoint::kinematic_poisson, &CurvePoint::poisson),
+                 panel(curves, "E/kₙ", "1/m", &CurvePoint::kinematic_young, &CurvePoint::young)}};
 }
 
 std::string curve_csv(const std::vector<DesignCurve>& curves) {
   std::string text =
-      "model,coordination,softness,particle_poisson_ratio,stiffness_ratio,poisson_ratio,poisson_stddev,young_over_stiffness,young_stddev,"
+      "model,coordination,softness,particle_poisson_ratio,stiffness_ratio,poisson_ratio,poisson_stddev,young_"
+      "over_stiffness,young_stddev,"
       "kinematic_poisson_ratio,kinematic_young_over_stiffness\n";
   for (const DesignCurve& c : curves) {
     for (const CurvePoint& p : c.points) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", c.model, c.coordination, c.softness, c.particle_poisson_ratio, p.stiffness_ratio, p.poisson.mean,
-                          p.poisson.stddev, p.young.mean, p.young.stddev, p.kinematic_poisson, p.kinematic_young);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", c.model, c.coordination, c.softness,
+                          c.particle_poisson_ratio, p.stiffness_ratio, p.poisson.mean, p.poisson.stddev,
+                          p.young.mean, p.young.stddev, p.kinematic_poisson, p.kinematic_young);
     }
   }
   return text;

@@ -8,7 +8,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr int kMostEvaluations = 15;   // the radius is flat, and has kinks where two eigenvalues cross
+constexpr int kMostEvaluations = 15;  // the radius is flat, and has kinks where two eigenvalues cross
 constexpr double kDifference = 1e-4;  // of the radius: Lanczos is right to 1e-10 of it
 constexpr double kLeastRatio = 1e-3;  // of k_t/k_n: at 0 its derivative does not exist
 
@@ -26,26 +26,30 @@ struct Problem {
   }
   double log_radius(const ModelPoint& p) const { return std::log(p.softness * model.radius_per_softness(p)); }
 
+  /// The radius is proportional to the softness; by the others, forward differences.
   static double objective(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
     const auto& problem = *static_cast<const Problem*>(data);
-    const ModelPoint p = problem.at(x);
-    const double value = problem.log_radius(p);
+    std::vector<ModelPoint> points = {problem.at(x)};
     for (std::size_t k = 0; k < gradient.size(); ++k) {
-      if (problem.free[k] == Parameter::log_softness) {
-        gradient[k] = 1.0;  // the radius is proportional to the softness
-        continue;
-      }
-      ModelPoint next = p;
-      next.set(problem.free[k], x[k] + kDifference);
-      gradient[k] = (problem.log_radius(next) - value) / kDifference;
+      if (problem.free[k] == Parameter::log_softness) continue;
+      points.push_back(points.front());
+      points.back().set(problem.free[k], x[k] + kDifference);
     }
-    return value;
+    const std::vector<double> radii = problem.model.radii_per_softness(points);
+    const double log_radius = std::log(radii.front());
+    for (std::size_t k = 0, next = 1; k < gradient.size(); ++k) {
+      gradient[k] = problem.free[k] == Parameter::log_softness
+                        ? 1.0
+                        : (std::log(radii[next++]) - log_radius) / kDifference;
+    }
+    return log_radius + std::log(points.front().softness);
   }
 
   static double deviation(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
     const auto& problem = *static_cast<const Problem*>(data);
     const MeanModuli m = problem.model.at(problem.at(x), problem.free);
-    std::copy(m.poisson_rates.begin(), m.poisson_rates.begin() + static_cast<std::ptrdiff_t>(gradient.size()), gradient.begin());
+    std::copy(m.poisson_rates.begin(), m.poisson_rates.begin() + static_cast<std::ptrdiff_t>(gradient.size()),
+              gradient.begin());
     return m.poisson - problem.target;
   }
 };
@@ -63,8 +67,11 @@ ModelPoint largest_margin(const StaticModel& model, const SearchSpace& space, co
     x.push_back(std::clamp(start.get(p), interval.low, interval.high));
   };
   const Interval ratio = space.stiffness_ratio;
-  if (!ratio.fixed()) add(Parameter::stiffness_ratio, {std::max(ratio.low, kLeastRatio), std::min(ratio.high, std::max(1.0, start.stiffness_ratio))});
-  if (!space.softness.fixed()) add(Parameter::log_softness, {std::log(space.softness.low), std::log(space.softness.high)});
+  if (!ratio.fixed())
+    add(Parameter::stiffness_ratio,
+        {std::max(ratio.low, kLeastRatio), std::min(ratio.high, std::max(1.0, start.stiffness_ratio))});
+  if (!space.softness.fixed())
+    add(Parameter::log_softness, {std::log(space.softness.low), std::log(space.softness.high)});
   const Interval nu_p = space.particle_poisson_ratio;
   if (!nu_p.fixed()) add(Parameter::particle_poisson_ratio, {nu_p.low, nu_p.high - kDifference});
   if (problem.free.size() < 2) return start;

@@ -6,10 +6,12 @@
 
 namespace ddem::harness {
 
-BracketedRoot bracketed_newton(const std::function<ValueAndSlope(double)>& f, BracketedRoot low, BracketedRoot high, double tolerance) {
+BracketedRoot bracketed_newton(const std::function<ValueAndSlope(double)>& f, BracketedRoot low,
+                               BracketedRoot high, double tolerance) {
   if (std::abs(low.value) <= tolerance) return low;
   if (std::abs(high.value) <= tolerance) return high;
-  if ((low.value < 0.0) == (high.value < 0.0)) throw std::invalid_argument("a bracket needs values of different signs at its ends");
+  if ((low.value < 0.0) == (high.value < 0.0))
+    throw std::invalid_argument("a bracket needs values of different signs at its ends");
   constexpr int kMost = 200;
   double x = low.x + (high.x - low.x) * low.value / (low.value - high.value);
   double last_step = std::abs(high.x - low.x);

@@ -15,13 +15,15 @@
 namespace ddem::harness {
 namespace {
 
-// The campaign's long pulses: 8 mm in a strip of 16.5 mm. Amplitudes are small against a disc: the models are linear.
+// The campaign's long pulses: 8 mm in a strip of 16.5 mm. Amplitudes are small against a disc: the models are
+// linear.
 constexpr double kPulseOverLength = 8.0 / 16.5;
 constexpr double kAmplitudeOverRadius = 1e-4;
 constexpr double kStepFraction = 0.2;
 
 /// Driven from its left end between periodic edges, measured over sections.
-Scene wave_scene(const Scene& calibrated, const Packing& packing, Wave wave, double speed, double step_fraction) {
+Scene wave_scene(const Scene& calibrated, const Packing& packing, Wave wave, double speed,
+                 double step_fraction) {
   Scene s = calibrated;
   s.contact->kinematics = Kinematics::linear;
   s.contact->new_contacts = NewContacts::off;
@@ -45,7 +47,8 @@ double safe_step_fraction(const ddem::Assembly& a, const Scene& scene, double de
   return std::min(kStepFraction, 0.5 * *c.step / dem_critical);
 }
 
-ProofWave send(const Scene& calibrated, const ddem::Assembly& a, Wave wave, double static_speed, double critical, double step_fraction) {
+ProofWave send(const Scene& calibrated, const ddem::Assembly& a, Wave wave, double static_speed,
+               double critical, double step_fraction) {
   ProofWave out;
   out.static_speed = static_speed;
   try {
@@ -82,7 +85,8 @@ ProofSeed prove_seed(const Scene& scene, const SeedAssembly& fitted, bool ends) 
   out.seed = fitted.seed;
   const ContactParameters contact = contact_parameters(scene);
   const DeformationParameters deformation = deformation_parameters(scene);
-  const PlaneStiffness c = homogenise_with_rates(fitted.assembly, contact, deformation, fitted.edge_band, {}).stiffness;
+  const PlaneStiffness c =
+      homogenise_with_rates(fitted.assembly, contact, deformation, fitted.edge_band, {}).stiffness;
   const IsotropicModuli m = isotropic_part(c);
   out.young_modulus = m.young();
   out.poisson_ratio = m.poisson();
@@ -104,12 +108,14 @@ ProofSeed prove_seed(const Scene& scene, const SeedAssembly& fitted, bool ends) 
 
 }  // namespace
 
-Proof prove(const Scene& scene, const FoundParameters& found, std::int64_t first, int count, int threads, const std::function<void()>& on_progress) {
+Proof prove(const Scene& scene, const FoundParameters& found, std::int64_t first, int count, int threads,
+            const std::function<void()>& on_progress) {
   const Scene calibrated = calibrated_scene(scene, found);
   const bool random = seed_of(scene).has_value();
   Proof proof;
   proof.unseen = random;
-  if (scene.assembly.periodic.x && !random) proof.no_waves = "the assembly is periodic in x: there are no ends to send a wave from";
+  if (scene.assembly.periodic.x && !random)
+    proof.no_waves = "the assembly is periodic in x: there are no ends to send a wave from";
   const std::vector<SeedAssembly> assemblies = seed_assemblies(calibrated, first, count, threads);
   const auto start = std::chrono::steady_clock::now();
   proof.seeds.resize(assemblies.size());
@@ -125,11 +131,14 @@ Proof prove(const Scene& scene, const FoundParameters& found, std::int64_t first
   return proof;
 }
 
-std::optional<MeanWithConfidence> dynamic_deviation(const Proof& proof, std::optional<ProofWave> ProofSeed::*wave, std::optional<double> ProofWave::*measured) {
+std::optional<MeanWithConfidence> dynamic_deviation(const Proof& proof,
+                                                    std::optional<ProofWave> ProofSeed::*wave,
+                                                    std::optional<double> ProofWave::*measured) {
   std::vector<double> deviations;
   for (const ProofSeed& s : proof.seeds) {
     const auto& w = s.*wave;
-    if (w && w->section_speed > 0.0 && (*w).*measured) deviations.push_back(*((*w).*measured) / w->section_speed - 1.0);
+    if (w && w->section_speed > 0.0 && (*w).*measured)
+      deviations.push_back(*((*w).*measured) / w->section_speed - 1.0);
   }
   return deviations.empty() ? std::nullopt : std::optional(mean_with_confidence(deviations));
 }

@@ -20,8 +20,9 @@ struct NewValue {
 
 std::vector<NewValue> new_values(const Scene& scene, const FoundParameters& found) {
   const bool modulus = scene.contact && std::holds_alternative<ContactModulus>(scene.contact->stiffness);
-  std::vector<NewValue> values = {{"contact", modulus ? "contact_modulus" : "normal_stiffness", found.stiffness},
-                                  {"contact", "stiffness_ratio", found.point.stiffness_ratio}};
+  std::vector<NewValue> values = {
+      {"contact", modulus ? "contact_modulus" : "normal_stiffness", found.stiffness},
+      {"contact", "stiffness_ratio", found.point.stiffness_ratio}};
   if (found.particle_density) values.push_back({"material", "density", *found.particle_density});
   if (scene.deformation) {
     values.push_back({"deformation", "young_modulus", found.particle_young_modulus});
@@ -50,7 +51,8 @@ std::string number_text(double value) {
 }
 
 /// The value behind the key on its line; false where it cannot be found there.
-bool replace_value(std::string& line, const std::string& key, const std::string& old_text, const std::string& new_text) {
+bool replace_value(std::string& line, const std::string& key, const std::string& old_text,
+                   const std::string& new_text) {
   const auto name = line.find(key);
   if (name == std::string::npos) return false;
   const auto at = line.find(old_text, name + key.size());
@@ -68,7 +70,8 @@ int header_line(const Document& document, const std::string& table) {
 
 bool reads_back(const Scene& scene, const std::string& text, const std::vector<NewValue>& values) {
   const auto document = parse_document(text, scene.path.string());
-  if (!document || !parse_scene(text, scene.path.string(), scene.path.parent_path(), {Purpose::statics})) return false;
+  if (!document || !parse_scene(text, scene.path.string(), scene.path.parent_path(), {Purpose::statics}))
+    return false;
   for (const NewValue& v : values) {
     bool found = false;
     for (const Entry& e : document->entries) {
@@ -119,7 +122,8 @@ std::string calibrated_text(const Scene& scene, const FoundParameters& found) {
   const auto document = parse_document(scene.source_text, scene.path.string());
   std::vector<std::string> lines = lines_of(scene.source_text);
   std::vector<std::pair<std::string, std::string>> appended;  // tables that are not there
-  std::vector<std::pair<int, std::string>> inserted;                   // behind a table's header, from below so that line numbers hold
+  std::vector<std::pair<int, std::string>>
+      inserted;  // behind a table's header, from below so that line numbers hold
   for (const NewValue& v : values) {
     const std::string text = number_text(v.value), row = fmt::format("{} = {}", v.key, text);
     const auto place = scene.places.find(v.table + "." + v.key);
@@ -131,7 +135,8 @@ std::string calibrated_text(const Scene& scene, const FoundParameters& found) {
       appended.emplace_back(v.table, row);
     }
   }
-  std::stable_sort(inserted.begin(), inserted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(inserted.begin(), inserted.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [line, row] : inserted) lines.insert(lines.begin() + line, row);
   std::string last_table;
   for (const auto& [table, row] : appended) {
@@ -142,9 +147,11 @@ std::string calibrated_text(const Scene& scene, const FoundParameters& found) {
   std::string out;
   for (const std::string& line : lines) out += line + "\n";
   if (!reads_back(scene, out, values)) {
-    throw InputError(fmt::format("{}: the found values cannot be put into this file; write [contact], [material] and [deformation] as tables "
-                                 "with a line for each key",
-                                 scene.path.string()));
+    throw InputError(
+        fmt::format("{}: the found values cannot be put into this file; write [contact], [material] and "
+                    "[deformation] as tables "
+                    "with a line for each key",
+                    scene.path.string()));
   }
   return out;
 }

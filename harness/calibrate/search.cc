@@ -18,9 +18,12 @@ constexpr double kRootTolerance = 1e-11;
 
 Interval interval_of(const SearchSpace& space, const StaticModel& model, const ModelPoint& at, Parameter p) {
   switch (p) {
-    case Parameter::stiffness_ratio: return space.stiffness_ratio;
-    case Parameter::log_softness: return {std::log(space.softness.low), std::log(softest(model, space, at))};
-    case Parameter::particle_poisson_ratio: break;
+    case Parameter::stiffness_ratio:
+      return space.stiffness_ratio;
+    case Parameter::log_softness:
+      return {std::log(space.softness.low), std::log(softest(model, space, at))};
+    case Parameter::particle_poisson_ratio:
+      break;
   }
   return space.particle_poisson_ratio;
 }
@@ -28,8 +31,13 @@ Interval interval_of(const SearchSpace& space, const StaticModel& model, const M
 /// The line through a point along one parameter.
 class Line {
  public:
-  Line(const StaticModel& model, const SearchSpace& space, const ModelPoint& point, Parameter parameter, double target)
-      : model_(model), point_(point), parameter_(parameter), target_(target), interval_(interval_of(space, model, point, parameter)) {}
+  Line(const StaticModel& model, const SearchSpace& space, const ModelPoint& point, Parameter parameter,
+       double target)
+      : model_(model),
+        point_(point),
+        parameter_(parameter),
+        target_(target),
+        interval_(interval_of(space, model, point, parameter)) {}
 
   /// Where the line meets the target, or the end of it that comes closest.
   SearchResult nearest() {
@@ -45,7 +53,8 @@ class Line {
     return at(bracketed_newton([this](double x) { return with_slope(x); }, low, high, kRootTolerance).x);
   }
 
-  /// The same from the point itself, which is close to the target: plain Newton; none where that leaves the interval.
+  /// The same from the point itself, which is close to the target: plain Newton; none where that leaves the
+  /// interval.
   std::optional<SearchResult> nearby() {
     constexpr int kMost = 8;
     double x = point_.get(parameter_);
@@ -59,7 +68,9 @@ class Line {
   }
 
  private:
-  static bool same_side(const BracketedRoot& a, const BracketedRoot& b) { return (a.value < 0.0) == (b.value < 0.0); }
+  static bool same_side(const BracketedRoot& a, const BracketedRoot& b) {
+    return (a.value < 0.0) == (b.value < 0.0);
+  }
   ModelPoint point_at(double x) const {
     ModelPoint p = point_;
     p.set(parameter_, x);
@@ -91,8 +102,10 @@ class Line {
 };
 
 /// From a point close to the target, by the first of its parameters that has room to move.
-std::optional<SearchResult> onto_target(const StaticModel& model, const SearchSpace& space, const ModelPoint& point, double target) {
-  for (const Parameter p : {Parameter::stiffness_ratio, Parameter::log_softness, Parameter::particle_poisson_ratio}) {
+std::optional<SearchResult> onto_target(const StaticModel& model, const SearchSpace& space,
+                                        const ModelPoint& point, double target) {
+  for (const Parameter p :
+       {Parameter::stiffness_ratio, Parameter::log_softness, Parameter::particle_poisson_ratio}) {
     if (p != Parameter::stiffness_ratio && !model.deformable()) break;
     if (auto moved = Line(model, space, point, p, target).nearby()) return moved;
   }
@@ -101,21 +114,25 @@ std::optional<SearchResult> onto_target(const StaticModel& model, const SearchSp
 
 class Search {
  public:
-  Search(const StaticModel& model, const SearchSpace& space, double target) : model_(model), space_(space), target_(target) {}
+  Search(const StaticModel& model, const SearchSpace& space, double target)
+      : model_(model), space_(space), target_(target) {}
 
   SearchResult run() {
     if (!model_.deformable()) {
-      return along(Parameter::stiffness_ratio, {}, space_.stiffness_ratio.fixed() ? "k_t/k_n as given" : "k_t/k_n is the only unknown");
+      return along(Parameter::stiffness_ratio, {},
+                   space_.stiffness_ratio.fixed() ? "k_t/k_n as given" : "k_t/k_n is the only unknown");
     }
     SearchResult first = stiffest();
     if (!first.feasible()) return first;
-    const bool choice = free_parameters() > 1 && (space_.preference == Preference::margin || !needs_softness_);
+    const bool choice =
+        free_parameters() > 1 && (space_.preference == Preference::margin || !needs_softness_);
     return choice ? with_margin(first) : first;
   }
 
  private:
   int free_parameters() const {
-    return int(!space_.stiffness_ratio.fixed()) + int(!space_.particle_poisson_ratio.fixed()) + int(!space_.softness.fixed());
+    return int(!space_.stiffness_ratio.fixed()) + int(!space_.particle_poisson_ratio.fixed()) +
+           int(!space_.softness.fixed());
   }
 
   SearchResult along(Parameter p, const ModelPoint& from, std::string choice) const {
@@ -128,14 +145,17 @@ class Search {
     return std::abs(b.residual) < std::abs(a.residual) ? b : a;
   }
 
-  /// With the stiffest discs that reach the target: at the lower end of the softness by k_t/k_n and nu_p, or else in the corner
-  /// of these two that reaches furthest, by the softness.
+  /// With the stiffest discs that reach the target: at the lower end of the softness by k_t/k_n and nu_p, or
+  /// else in the corner of these two that reaches furthest, by the softness.
   SearchResult stiffest() {
     const Interval nu_p = space_.particle_poisson_ratio;
-    ModelPoint start{space_.stiffness_ratio.low, space_.softness.low, std::clamp(target_, nu_p.low, nu_p.high)};
+    ModelPoint start{space_.stiffness_ratio.low, space_.softness.low,
+                     std::clamp(target_, nu_p.low, nu_p.high)};
     const auto by_free = [&] {
-      return space_.stiffness_ratio.fixed() ? along(Parameter::particle_poisson_ratio, start, "k_t/k_n as given, stiffest discs; nu_p solves for nu")
-                                            : along(Parameter::stiffness_ratio, start, "stiffest discs; k_t/k_n solves for nu");
+      return space_.stiffness_ratio.fixed()
+                 ? along(Parameter::particle_poisson_ratio, start,
+                         "k_t/k_n as given, stiffest discs; nu_p solves for nu")
+                 : along(Parameter::stiffness_ratio, start, "stiffest discs; k_t/k_n solves for nu");
     };
     SearchResult best = by_free();
     const bool too_low = best.residual < 0.0;
@@ -145,8 +165,11 @@ class Search {
     }
     if (best.feasible() || space_.softness.fixed()) return best;
     needs_softness_ = true;
-    const ModelPoint corner{too_low ? space_.stiffness_ratio.low : space_.stiffness_ratio.high, space_.softness.low, too_low ? nu_p.high : nu_p.low};
-    return nearer(best, along(Parameter::log_softness, corner, "the stiffest discs that reach nu, with k_t/k_n and nu_p where they help most"));
+    const ModelPoint corner{too_low ? space_.stiffness_ratio.low : space_.stiffness_ratio.high,
+                            space_.softness.low, too_low ? nu_p.high : nu_p.low};
+    return nearer(best,
+                  along(Parameter::log_softness, corner,
+                        "the stiffest discs that reach nu, with k_t/k_n and nu_p where they help most"));
   }
 
   /// Moved along nu = target to the largest margin (first seed), then onto the target again over all seeds.
@@ -159,7 +182,8 @@ class Search {
     if (!moved) return first;
     moved->choice = space_.preference == Preference::margin
                         ? "largest stability margin (smallest spectral radius of K B) of all that meet nu"
-                        : "stiffest discs; k_t/k_n and nu_p with the largest stability margin (smallest spectral radius of K B)";
+                        : "stiffest discs; k_t/k_n and nu_p with the largest stability margin (smallest "
+                          "spectral radius of K B)";
     return *moved;
   }
 
@@ -171,7 +195,9 @@ class Search {
 
 }  // namespace
 
-bool SearchResult::feasible() const { return std::abs(residual) <= kPoissonTolerance; }
+bool SearchResult::feasible() const {
+  return std::abs(residual) <= kPoissonTolerance;
+}
 
 double softest(const StaticModel& model, const SearchSpace& space, const ModelPoint& point) {
   const auto limit = model.radius_limit();
@@ -191,7 +217,8 @@ SearchResult find_poisson(const StaticModel& model, const SearchSpace& space, do
   return Search(model, space, target).run();
 }
 
-ReachableRange reachable_range(const StaticModel& model, const SearchSpace& space, const std::optional<ReachableRange>& rigid) {
+ReachableRange reachable_range(const StaticModel& model, const SearchSpace& space,
+                               const std::optional<ReachableRange>& rigid) {
   ReachableRange range = rigid.value_or(ReachableRange{HUGE_VAL, -HUGE_VAL});
   const double most = std::max(space.stiffness_ratio.low, std::min(1.0, space.stiffness_ratio.high));
   for (const bool high : {false, true}) {

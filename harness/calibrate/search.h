@@ -1,7 +1,7 @@
 #pragma once
-// Contact parameters for a Poisson's ratio. k_n follows from Young's modulus by scale, so that one equation is left,
-// nu(k_t/k_n, k_n/E_p, nu_p) = target, in one unknown (DEM) or up to three (DDEM). In each of them nu is monotonic: it falls
-// with k_t/k_n, rises with nu_p, and moves towards nu_p with the softness.
+// Contact parameters for a Poisson's ratio. k_n follows from Young's modulus by scale, so that one equation
+// is left, nu(k_t/k_n, k_n/E_p, nu_p) = target, in one unknown (DEM) or up to three (DDEM). In each of them
+// nu is monotonic: it falls with k_t/k_n, rises with nu_p, and moves towards nu_p with the softness.
 
 #include <optional>
 #include <string>
@@ -30,10 +30,10 @@ struct SearchSpace {
 };
 
 struct SearchResult {
-  ModelPoint point;      ///< that meets the target, or the nearest one
-  MeanModuli moduli;     ///< there, over all seeds
-  double residual = 0.0; ///< nu - target
-  std::string choice;    ///< how free parameters were chosen, in words
+  ModelPoint point;       ///< that meets the target, or the nearest one
+  MeanModuli moduli;      ///< there, over all seeds
+  double residual = 0.0;  ///< nu - target
+  std::string choice;     ///< how free parameters were chosen, in words
 
   /// The verdict: what the static solve says of the point, not whether a search ended well.
   bool feasible() const;
@@ -42,8 +42,8 @@ struct SearchResult {
 /// Of nu, within which a target is met.
 inline constexpr double kPoissonTolerance = 1e-6;
 
-/// Searched on the first seed, then moved onto the target over all seeds; searched over all of them where that fails.
-/// Throws std::runtime_error where the assembly has no static equilibrium.
+/// Searched on the first seed, then moved onto the target over all seeds; searched over all of them where
+/// that fails. Throws std::runtime_error where the assembly has no static equilibrium.
 SearchResult find_poisson(const StaticModel& model, const SearchSpace& space, double target);
 
 /// Values of nu that the space offers for k_t/k_n up to 1 (above, nu falls on, for rigid discs towards -1).
@@ -51,7 +51,8 @@ struct ReachableRange {
   double lowest = 0.0, highest = 0.0;
 };
 /// `rigid`: what is known of the stiff end, where it need not be computed.
-ReachableRange reachable_range(const StaticModel& model, const SearchSpace& space, const std::optional<ReachableRange>& rigid = {});
+ReachableRange reachable_range(const StaticModel& model, const SearchSpace& space,
+                               const std::optional<ReachableRange>& rigid = {});
 
 /// Softness up to which a point is stable, or the space's own end.
 double softest(const StaticModel& model, const SearchSpace& space, const ModelPoint& point);

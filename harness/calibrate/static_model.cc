@@ -22,14 +22,16 @@ struct YoungPoisson {
 
 YoungPoisson rate_of(const IsotropicModuli& m, const IsotropicModuli& rate) {
   const double k = m.bulk, g = m.shear, square = (k + g) * (k + g);
-  return {4.0 * (g * g * rate.bulk + k * k * rate.shear) / square, 2.0 * (g * rate.bulk - k * rate.shear) / square};
+  return {4.0 * (g * g * rate.bulk + k * k * rate.shear) / square,
+          2.0 * (g * rate.bulk - k * rate.shear) / square};
 }
 
 ddem::Assembly homogenisable(const Scene& scene) {
   if (scene.assembly.periodic.x) return build_network(scene);
   auto closed = build_laterally_closed(scene);
   if (!closed) {
-    throw InputError(scene_problem(scene, "assembly.file", "a packing that does not close in y has no bulk moduli to calibrate",
+    throw InputError(scene_problem(scene, "assembly.file",
+                                   "a packing that does not close in y has no bulk moduli to calibrate",
                                    "give its width as the period, and let bond_gap make the bonds"));
   }
   require_one_network(*closed);
@@ -44,18 +46,27 @@ double mean(const std::vector<double>& values) {
 
 double ModelPoint::get(Parameter parameter) const {
   switch (parameter) {
-    case Parameter::stiffness_ratio: return stiffness_ratio;
-    case Parameter::log_softness: return std::log(softness);
-    case Parameter::particle_poisson_ratio: break;
+    case Parameter::stiffness_ratio:
+      return stiffness_ratio;
+    case Parameter::log_softness:
+      return std::log(softness);
+    case Parameter::particle_poisson_ratio:
+      break;
   }
   return particle_poisson_ratio;
 }
 
 void ModelPoint::set(Parameter parameter, double value) {
   switch (parameter) {
-    case Parameter::stiffness_ratio: stiffness_ratio = value; return;
-    case Parameter::log_softness: softness = std::exp(value); return;
-    case Parameter::particle_poisson_ratio: particle_poisson_ratio = value; return;
+    case Parameter::stiffness_ratio:
+      stiffness_ratio = value;
+      return;
+    case Parameter::log_softness:
+      softness = std::exp(value);
+      return;
+    case Parameter::particle_poisson_ratio:
+      particle_poisson_ratio = value;
+      return;
   }
 }
 
@@ -87,7 +98,8 @@ StaticModel::StaticModel(const Scene& scene, std::vector<SeedAssembly> assemblie
       deformation_(scene.deformation.value_or(DeformationParameters{})),
       seeds_(assemblies_->size()),
       threads_(threads) {
-  if (by_modulus_) mean_stiffness_ = mean(normal_stiffnesses(assemblies_->front().assembly, contact({}, 1.0)));
+  if (by_modulus_)
+    mean_stiffness_ = mean(normal_stiffnesses(assemblies_->front().assembly, contact({}, 1.0)));
 }
 
 StaticModel StaticModel::variant(const DeformationParameters& deformation) const {
@@ -148,14 +160,20 @@ MeanModuli StaticModel::at(const ModelPoint& point, std::span<const Parameter> r
   return out;
 }
 
-double StaticModel::radius_per_softness(const ModelPoint& point) const {
-  ModelPoint unit = point;
-  unit.softness = 1.0;
-  std::vector<double> radius(seeds_);
-  run_jobs(seeds_, threads_, [&](std::size_t k) {
-    radius[k] = fixed_point_radius((*assemblies_)[k].assembly, contact(unit, 1.0), discs(unit, 1.0));
+std::vector<double> StaticModel::radii_per_softness(std::span<const ModelPoint> points) const {
+  std::vector<double> radius(seeds_ * points.size());
+  run_jobs(radius.size(), threads_, [&](std::size_t job) {
+    ModelPoint unit = points[job / seeds_];
+    unit.softness = 1.0;
+    radius[job] =
+        fixed_point_radius((*assemblies_)[job % seeds_].assembly, contact(unit, 1.0), discs(unit, 1.0));
   });
-  return *std::max_element(radius.begin(), radius.end());
+  std::vector<double> largest;
+  for (auto of_point = radius.begin(); of_point != radius.end();
+       of_point += static_cast<std::ptrdiff_t>(seeds_)) {
+    largest.push_back(*std::max_element(of_point, of_point + static_cast<std::ptrdiff_t>(seeds_)));
+  }
+  return largest;
 }
 
 std::optional<double> StaticModel::radius_limit() const {

@@ -25,14 +25,18 @@ struct Part {
 
 Part parse_part(std::string_view option, std::string_view whole, std::string_view text, Dimension dimension) {
   const auto first = text.find_first_not_of(' ');
-  text = first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(' ') - first + 1);
+  text = first == std::string_view::npos ? std::string_view{}
+                                         : text.substr(first, text.find_last_not_of(' ') - first + 1);
   double number = 0.0;
   const char* const end = text.data() + text.size();
-  if (const auto [stop, problem] = std::from_chars(text.data(), end, number); problem == std::errc{} && stop == end) return {number, false};
+  if (const auto [stop, problem] = std::from_chars(text.data(), end, number);
+      problem == std::errc{} && stop == end)
+    return {number, false};
   const Quantity q = parse_quantity(text, dimension);
   if (!q.si) {
     const std::string problem = dimension == Dimension::none ? "a number is expected" : q.problem;
-    throw InputError(fmt::format("{} {}: {}; write {}", option, whole, problem, quantity_examples(dimension)));
+    throw InputError(
+        fmt::format("{} {}: {}; write {}", option, whole, problem, quantity_examples(dimension)));
   }
   return {*q.si, true};
 }
@@ -44,11 +48,16 @@ struct Model {
 
 Model model_of(TargetKind q, double nu, Plane plane) {
   switch (q) {
-    case TargetKind::young: return {1.0, 0.0, 0.0};
-    case TargetKind::poisson: return {0.0, nu, 1.0};
-    case TargetKind::bar: return {0.5, 0.0, 0.0};
-    case TargetKind::shear: return {0.5, -0.5 * std::log(2.0 * (1.0 + nu)), -0.5 / (1.0 + nu)};
-    case TargetKind::p: break;
+    case TargetKind::young:
+      return {1.0, 0.0, 0.0};
+    case TargetKind::poisson:
+      return {0.0, nu, 1.0};
+    case TargetKind::bar:
+      return {0.5, 0.0, 0.0};
+    case TargetKind::shear:
+      return {0.5, -0.5 * std::log(2.0 * (1.0 + nu)), -0.5 / (1.0 + nu)};
+    case TargetKind::p:
+      break;
   }
   if (plane == Plane::stress) return {0.5, -0.5 * std::log(1.0 - nu * nu), nu / (1.0 - nu * nu)};
   return {0.5, 0.5 * std::log((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))),
@@ -67,17 +76,21 @@ std::vector<Equation> equations_of(const WantedValues& wanted) {
     const auto& given = wanted.of(q);
     if (!given) continue;
     if (q == TargetKind::poisson) {
-      equations.push_back({q, given->value, given->stddev > 0.0 ? given->stddev : kAssumedUncertainty, given->stddev});
+      equations.push_back(
+          {q, given->value, given->stddev > 0.0 ? given->stddev : kAssumedUncertainty, given->stddev});
       continue;
     }
     const double known = given->stddev / given->value;
     const double density = q == TargetKind::young ? 0.0 : 0.5 * std::log(wanted.density.value());
-    equations.push_back({q, std::log(given->value) + density, known > 0.0 ? known : kAssumedUncertainty, known});
+    equations.push_back(
+        {q, std::log(given->value) + density, known > 0.0 ? known : kAssumedUncertainty, known});
   }
   return equations;
 }
 
-double upper_poisson(Plane plane) { return plane == Plane::stress ? 1.0 : 0.5; }
+double upper_poisson(Plane plane) {
+  return plane == Plane::stress ? 1.0 : 0.5;
+}
 
 /// The best E for a nu, and the sum of squared deviations that it leaves.
 struct Fit {
@@ -117,8 +130,8 @@ Linearised linearise(const std::vector<Equation>& equations, const Fit& at, Plan
   return l;
 }
 
-/// Global by a grid in nu, on which E is eliminated (from high to low, so that of two signs the positive one is found first),
-/// then Gauss-Newton.
+/// Global by a grid in nu, on which E is eliminated (from high to low, so that of two signs the positive one
+/// is found first), then Gauss-Newton.
 Fit fit_solid(const std::vector<Equation>& equations, Plane plane) {
   const double upper = upper_poisson(plane);
   Fit best;
@@ -142,8 +155,9 @@ Fit fit_solid(const std::vector<Equation>& equations, Plane plane) {
 std::string values_text(const WantedValues& wanted) {
   std::string text;
   for (const TargetKind q : kTargetKinds) {
-    if (wanted.of(q)) text += fmt::format("{}{} {:.6g}{}{}", text.empty() ? "" : ", ", name(q), wanted.of(q)->value,
-                                          dimension_of(q) == Dimension::none ? "" : " ", si_unit(dimension_of(q)));
+    if (wanted.of(q))
+      text += fmt::format("{}{} {:.6g}{}{}", text.empty() ? "" : ", ", name(q), wanted.of(q)->value,
+                          dimension_of(q) == Dimension::none ? "" : " ", si_unit(dimension_of(q)));
   }
   return text;
 }
@@ -154,9 +168,11 @@ void require_agreement(const std::vector<Equation>& equations, const Fit& fit, c
   // Two values either meet or miss; round-off of the logarithms is 1e-13 of the assumed uncertainty.
   const double allowed = equations.size() == 2 ? 1e-6 : kAgreement;
   if (worst <= allowed) return;
-  throw InputError(fmt::format("{}: these contradict each other: no isotropic solid with -1 < nu < {} has them all ({}; the nearest has E = {:.6g} Pa, nu = {:.4f})",
-                               values_text(wanted), upper_poisson(wanted.plane), wanted.plane == Plane::stress ? "plane stress" : "plane strain",
-                               std::exp(fit.log_young), fit.nu));
+  throw InputError(fmt::format(
+      "{}: these contradict each other: no isotropic solid with -1 < nu < {} has them all ({}; the nearest "
+      "has E = {:.6g} Pa, nu = {:.4f})",
+      values_text(wanted), upper_poisson(wanted.plane),
+      wanted.plane == Plane::stress ? "plane stress" : "plane strain", std::exp(fit.log_young), fit.nu));
 }
 
 void require_possible(const WantedValues& wanted) {
@@ -169,22 +185,29 @@ void require_possible(const WantedValues& wanted) {
     velocities += q >= TargetKind::bar ? 1 : 0;
     const double upper = upper_poisson(wanted.plane);
     if (q == TargetKind::poisson && !(v->value > -1.0 && v->value < upper)) {
-      problems.push_back(fmt::format("Poisson's ratio {}: must lie between -1 and {} in {}", v->value, upper,
-                                     wanted.plane == Plane::stress ? "the plane (plane stress)" : "a solid (plane strain)"));
+      problems.push_back(
+          fmt::format("Poisson's ratio {}: must lie between -1 and {} in {}", v->value, upper,
+                      wanted.plane == Plane::stress ? "the plane (plane stress)" : "a solid (plane strain)"));
     } else if (q != TargetKind::poisson && !(v->value > 0.0 && std::isfinite(v->value))) {
       problems.push_back(fmt::format("{} {}: must be positive and finite", name(q), v->value));
     }
     if (!(v->stddev >= 0.0) || !std::isfinite(v->stddev)) {
-      problems.push_back(fmt::format("{} +- {}: an uncertainty must be finite and not negative", name(q), v->stddev));
+      problems.push_back(
+          fmt::format("{} +- {}: an uncertainty must be finite and not negative", name(q), v->stddev));
     }
   }
-  if (given < 2) problems.push_back("give two targets: --young and --poisson, or two of them and --bar-velocity, --shear-velocity, --p-velocity");
-  if (velocities > 0 && !wanted.density) problems.push_back("velocities need --density, the bulk density of the material");
+  if (given < 2)
+    problems.push_back(
+        "give two targets: --young and --poisson, or two of them and --bar-velocity, --shear-velocity, "
+        "--p-velocity");
+  if (velocities > 0 && !wanted.density)
+    problems.push_back("velocities need --density, the bulk density of the material");
   if (wanted.density && !(*wanted.density > 0.0 && std::isfinite(*wanted.density))) {
     problems.push_back(fmt::format("density {}: must be positive and finite", *wanted.density));
   }
   if (wanted.of(TargetKind::young) && wanted.of(TargetKind::bar) && given == 2) {
-    problems.push_back("Young's modulus and bar velocity say the same; give Poisson's ratio or another velocity, too");
+    problems.push_back(
+        "Young's modulus and bar velocity say the same; give Poisson's ratio or another velocity, too");
   }
   if (!problems.empty()) throw InputError(problems);
 }
@@ -194,14 +217,16 @@ Eigen::Matrix2d covariance_of(const std::vector<Equation>& equations, const Fit&
   const Linearised l = linearise(equations, fit, plane);
   Eigen::VectorXd known(l.deviation.size());
   for (Eigen::Index r = 0; r < known.size(); ++r) known[r] = equations[r].known_sigma / equations[r].sigma;
-  const Eigen::MatrixXd gain = l.jacobian.completeOrthogonalDecomposition().pseudoInverse() * known.asDiagonal();
+  const Eigen::MatrixXd gain =
+      l.jacobian.completeOrthogonalDecomposition().pseudoInverse() * known.asDiagonal();
   return gain * gain.transpose();
 }
 
 }  // namespace
 
 std::string_view name(TargetKind quantity) {
-  constexpr std::array<std::string_view, kTargetKinds.size()> names = {"Young's modulus", "Poisson's ratio", "bar velocity", "shear velocity", "P velocity"};
+  constexpr std::array<std::string_view, kTargetKinds.size()> names = {
+      "Young's modulus", "Poisson's ratio", "bar velocity", "shear velocity", "P velocity"};
   return names[static_cast<std::size_t>(quantity)];
 }
 
@@ -217,7 +242,8 @@ Uncertain parse_uncertain(std::string_view option, std::string_view text, Dimens
     const Part value = parse_part(option, text, text.substr(0, at), dimension);
     const Part stddev = parse_part(option, text, text.substr(at + sign.size()), dimension);
     if (value.has_unit != stddev.has_unit) {
-      throw InputError(fmt::format("{} {}: give both the value and its uncertainty a unit, or neither", option, text));
+      throw InputError(
+          fmt::format("{} {}: give both the value and its uncertainty a unit, or neither", option, text));
     }
     return {value.si, stddev.si};
   }
@@ -246,8 +272,10 @@ Target make_target(const WantedValues& wanted) {
     Eigen::Matrix2d map;
     map << 1.0, 2.0 * nu / (1.0 - nu * nu), 0.0, 1.0 / ((1.0 - nu) * (1.0 - nu));
     t.covariance = (map * t.covariance * map.transpose()).eval();
-    t.conversion = fmt::format("plane strain: E = {:.8g} Pa, nu = {:.8g} of the solid become E/(1 - nu^2) = {:.8g} Pa, nu/(1 - nu) = {:.8g} of the plane",
-                               t.solid_young_modulus, nu, t.young_modulus, t.poisson_ratio);
+    t.conversion = fmt::format(
+        "plane strain: E = {:.8g} Pa, nu = {:.8g} of the solid become E/(1 - nu^2) = {:.8g} Pa, nu/(1 - nu) "
+        "= {:.8g} of the plane",
+        t.solid_young_modulus, nu, t.young_modulus, t.poisson_ratio);
   }
   return t;
 }

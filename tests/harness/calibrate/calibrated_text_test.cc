@@ -30,13 +30,19 @@ Scene packing_scene(const std::string& text) {
 constexpr const char* kAssembly = "[assembly]  # mine\npacking = \"hexagonal\"\nperiodic = \"xy\"\n";
 
 TEST(CalibratedText, ReplacesValuesAndKeepsTheRest) {
-  const std::string text = std::string("# stiffness_ratio = 0.25 is not this one\ntitle = \"my stiffness_ratio\"\n\n") + kAssembly +
-                           "[contact]\nstiffness_ratio  = 0.25   # k_t / k_n = 0.25\nnormal_stiffness = \"10 GN/m\"\nnew_contacts = \"off\"\n"
-                           "[deformation]\nyoung_modulus=4e10\npoisson_ratio = 0.3\n[material]\ndensity = \"2 g/cm3\"\n";
+  const std::string text =
+      std::string("# stiffness_ratio = 0.25 is not this one\ntitle = \"my stiffness_ratio\"\n\n") +
+      kAssembly +
+      "[contact]\nstiffness_ratio  = 0.25   # k_t / k_n = 0.25\nnormal_stiffness = \"10 GN/m\"\nnew_contacts "
+      "= \"off\"\n"
+      "[deformation]\nyoung_modulus=4e10\npoisson_ratio = 0.3\n[material]\ndensity = \"2 g/cm3\"\n";
   const std::string out = calibrated_text(packing_scene(text), found());
-  EXPECT_EQ(out, std::string("# stiffness_ratio = 0.25 is not this one\ntitle = \"my stiffness_ratio\"\n\n") + kAssembly +
-                     "[contact]\nstiffness_ratio  = 0.2   # k_t / k_n = 0.25\nnormal_stiffness = 30000000000.0\nnew_contacts = \"off\"\n"
-                     "[deformation]\nyoung_modulus=60000000000.0\npoisson_ratio = 0.45\n[material]\ndensity = 2847.25\n");
+  EXPECT_EQ(out, std::string("# stiffness_ratio = 0.25 is not this one\ntitle = \"my stiffness_ratio\"\n\n") +
+                     kAssembly +
+                     "[contact]\nstiffness_ratio  = 0.2   # k_t / k_n = 0.25\nnormal_stiffness = "
+                     "30000000000.0\nnew_contacts = \"off\"\n"
+                     "[deformation]\nyoung_modulus=60000000000.0\npoisson_ratio = 0.45\n[material]\ndensity "
+                     "= 2847.25\n");
 }
 
 TEST(CalibratedText, AddsTablesAndKeysThatAreMissing) {
@@ -50,15 +56,23 @@ TEST(CalibratedText, AddsTablesAndKeysThatAreMissing) {
 }
 
 TEST(CalibratedText, WritesTheContactModulusWhereThereIsOne) {
-  const Scene scene = packing_scene(std::string(kAssembly) + "[contact]\ncontact_modulus = \"20 GPa\"\nstiffness_ratio = 1\n[material]\ndensity = 1000\n");
+  const Scene scene = packing_scene(
+      std::string(kAssembly) +
+      "[contact]\ncontact_modulus = \"20 GPa\"\nstiffness_ratio = 1\n[material]\ndensity = 1000\n");
   const Scene read = scene_of(calibrated_text(scene, found()));
   EXPECT_EQ(std::get<ContactModulus>(read.contact->stiffness).pascal, 3e10);
 }
 
 TEST(CalibratedText, TakesInlineAndDottedTablesOrSaysThatItCannot) {
-  const std::string dotted = std::string("contact.stiffness_ratio = 0.25\ncontact.normal_stiffness = 1e10\nmaterial.density = 2000\n") + kAssembly;
+  const std::string dotted =
+      std::string(
+          "contact.stiffness_ratio = 0.25\ncontact.normal_stiffness = 1e10\nmaterial.density = 2000\n") +
+      kAssembly;
   EXPECT_EQ(scene_of(calibrated_text(packing_scene(dotted), found())).contact->stiffness_ratio, 0.2);
-  const std::string in_line = std::string("contact = { stiffness_ratio = 0.25, normal_stiffness = 1e10 }\nmaterial = { density = 2000 }\n") + kAssembly;
+  const std::string in_line =
+      std::string(
+          "contact = { stiffness_ratio = 0.25, normal_stiffness = 1e10 }\nmaterial = { density = 2000 }\n") +
+      kAssembly;
   try {
     EXPECT_EQ(scene_of(calibrated_text(packing_scene(in_line), found())).contact->stiffness_ratio, 0.2);
   } catch (const InputError& e) {

@@ -13,7 +13,8 @@ TEST(StudentT, IsThatOfTheTables) {
     int freedom;
     double t95, t99;
   };
-  for (const Row& row : {Row{1, 12.706, 63.657}, Row{2, 4.303, 9.925}, Row{3, 3.182, 5.841}, Row{4, 2.776, 4.604}, Row{5, 2.571, 4.032}, Row{7, 2.365, 3.499},
+  for (const Row& row : {Row{1, 12.706, 63.657}, Row{2, 4.303, 9.925}, Row{3, 3.182, 5.841},
+                         Row{4, 2.776, 4.604}, Row{5, 2.571, 4.032}, Row{7, 2.365, 3.499},
                          Row{10, 2.228, 3.169}, Row{30, 2.042, 2.750}, Row{120, 1.980, 2.617}}) {
     EXPECT_NEAR(student_t(0.95, row.freedom), row.t95, 5.1e-4) << row.freedom;
     EXPECT_NEAR(student_t(0.99, row.freedom), row.t99, 5.1e-4) << row.freedom;

@@ -12,7 +12,8 @@ namespace {
 TEST(DesignCurves, OfTheLatticeAreItsClosedForm) {
   const Scene scene = lattice_scene("implicit", "full");
   int told = 0;
-  const auto curves = design_curves(scene, {.seeds = 1, .softness = 0.3, .particle_poisson_ratio = 0.4}, [&] { ++told; });
+  const auto curves =
+      design_curves(scene, {.seeds = 1, .softness = 0.3, .particle_poisson_ratio = 0.4}, [&] { ++told; });
   ASSERT_EQ(curves.size(), 2u);
   EXPECT_EQ(curve_count(scene), 2u);
   EXPECT_EQ(told, 2);
@@ -32,7 +33,8 @@ TEST(DesignCurves, OfTheLatticeAreItsClosedForm) {
   }
   EXPECT_NE(reports::render_svg(curve_figure(curves)).find("</svg>"), std::string::npos);
   const std::string csv = curve_csv(curves);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + static_cast<long>(curves[0].points.size() + curves[1].points.size()));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'),
+            1 + static_cast<long>(curves[0].points.size() + curves[1].points.size()));
 }
 
 }  // namespace

@@ -15,9 +15,10 @@ double mean_of(const Proof& p, double ProofSeed::*member) {
   return sum / static_cast<double>(p.seeds.size());
 }
 
-/// What a user is promised for k_t/k_n >= 0.1: static residual 1e-6 on the fitted seeds, on eight others mean nu within 0.01 and
-/// E within 2 % (three standard errors of six fitted and eight unseen packings that scatter by 0.005 and 2 % are 0.008 and
-/// 3 %), driven shear and P pulses within 0.5 % of the static speeds of their own strips, on average.
+/// What a user is promised for k_t/k_n >= 0.1: static residual 1e-6 on the fitted seeds, on eight others mean
+/// nu within 0.01 and E within 2 % (three standard errors of six fitted and eight unseen packings that
+/// scatter by 0.005 and 2 % are 0.008 and 3 %), driven shear and P pulses within 0.5 % of the static speeds
+/// of their own strips, on average.
 void expect_kept(const Scene& scene, const Calibration& c) {
   ASSERT_TRUE(c.feasible);
   EXPECT_GE(c.found.point.stiffness_ratio, 0.1);
@@ -72,7 +73,8 @@ TEST(RandomCalibration, SaysWhatWouldHelp) {
 /// The same bits for any number of threads.
 TEST(RandomCalibration, DoesNotDependOnThreads) {
   const Scene scene = strip_scene();
-  const Calibration one = calibrate(scene, target_of(30e9, 0.2), {{}, 3, 1}), three = calibrate(scene, target_of(30e9, 0.2), {{}, 3, 3});
+  const Calibration one = calibrate(scene, target_of(30e9, 0.2), {{}, 3, 1}),
+                    three = calibrate(scene, target_of(30e9, 0.2), {{}, 3, 3});
   EXPECT_EQ(one.found.stiffness, three.found.stiffness);
   EXPECT_EQ(one.found.point, three.found.point);
 }

@@ -23,12 +23,16 @@ class Calibrate : public Cli {
   }
 };
 
-const char* const kDeformation = "[deformation]\nscheme = \"implicit\"\ncorrection = \"full\"\nyoung_modulus = 1e10\npoisson_ratio = 0.1\n";
+const char* const kDeformation =
+    "[deformation]\nscheme = \"implicit\"\ncorrection = \"full\"\nyoung_modulus = 1e10\npoisson_ratio = "
+    "0.1\n";
 
-/// Closed form: lambda = 0.2, k_n = E/(0.375 * 2 sqrt(3)); and `ddem moduli` says the same of the scene that is written.
+/// Closed form: lambda = 0.2, k_n = E/(0.375 * 2 sqrt(3)); and `ddem moduli` says the same of the scene that
+/// is written.
 TEST_F(Calibrate, WritesASceneThatHasTheTarget) {
   write_lattice();
-  const auto run = calibrate({"--young", "30 GPa", "--poisson", "0.25", "--density", "2400", "--assembly", path("lattice.toml"), "-o", path("out.toml"), "--json"});
+  const auto run = calibrate({"--young", "30 GPa", "--poisson", "0.25", "--density", "2400", "--assembly",
+                              path("lattice.toml"), "-o", path("out.toml"), "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   EXPECT_EQ(run.standard_error, "");
   const Json json = Json::parse(run.standard_output);
@@ -37,7 +41,8 @@ TEST_F(Calibrate, WritesASceneThatHasTheTarget) {
   EXPECT_NEAR(json["parameters"]["normal_stiffness"].get<double>() / 2.30940108e10, 1.0, 1e-8);
   EXPECT_NEAR(json["young_modulus"].get<double>() / 30e9, 1.0, 1e-9);
   EXPECT_NEAR(json["poisson_ratio"].get<double>(), 0.25, 1e-9);
-  for (const char* key : {"target", "residuals", "seeds", "over_seeds", "reachable", "uncertainty", "proof"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"target", "residuals", "seeds", "over_seeds", "reachable", "uncertainty", "proof"})
+    EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_THAT(read("out.toml"), HasSubstr("# mine"));
   const auto moduli = ddem({"moduli", path("out.toml"), "--json"});
   ASSERT_EQ(moduli.exit_code, 0) << moduli.standard_error;
@@ -50,11 +55,15 @@ TEST_F(Calibrate, WritesASceneThatHasTheTarget) {
 TEST_F(Calibrate, DeformableDiscsFromVelocitiesInPlaneStrain) {
   write_lattice(kDeformation);
   // E = 30 GPa, nu = 0.28 of a solid of 2400 kg/m3: its shear velocity and P velocity.
-  const double shear = std::sqrt(30e9 / (2.0 * 1.28) / 2400.0), p = std::sqrt(30e9 * 0.72 / (1.28 * 0.44) / 2400.0);
-  const auto run = calibrate({"--shear-velocity", std::to_string(shear), "--p-velocity", std::to_string(1e-3 * p) + " km/s", "--density", "2.4 g/cm3", "--plane", "strain",
-                              "--assembly", path("lattice.toml"), "--stiffness-ratio", "0.2", "-o", path("out.toml")});
+  const double shear = std::sqrt(30e9 / (2.0 * 1.28) / 2400.0),
+               p = std::sqrt(30e9 * 0.72 / (1.28 * 0.44) / 2400.0);
+  const auto run =
+      calibrate({"--shear-velocity", std::to_string(shear), "--p-velocity",
+                 std::to_string(1e-3 * p) + " km/s", "--density", "2.4 g/cm3", "--plane", "strain",
+                 "--assembly", path("lattice.toml"), "--stiffness-ratio", "0.2", "-o", path("out.toml")});
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
-  EXPECT_THAT(run.standard_output, AllOf(HasSubstr("plane strain: E = "), HasSubstr("k_n/E_p = "), HasSubstr("within reach")));
+  EXPECT_THAT(run.standard_output,
+              AllOf(HasSubstr("plane strain: E = "), HasSubstr("k_n/E_p = "), HasSubstr("within reach")));
   const Json given = Json::parse(ddem({"moduli", path("out.toml"), "--json"}).standard_output);
   // std::to_string keeps six digits behind the point of km/s: 3e-7.
   EXPECT_NEAR(given["young_modulus"].get<double>() / (30e9 / (1.0 - 0.28 * 0.28)), 1.0, 1e-5);
@@ -65,7 +74,8 @@ TEST_F(Calibrate, DeformableDiscsFromVelocitiesInPlaneStrain) {
 TEST_F(Calibrate, SaysWhatIsOutOfReachAndWritesNothing) {
   write_lattice();
   const auto before = contents();
-  const auto run = calibrate({"--young", "3e10", "--poisson", "0.40", "--density", "2400", "--assembly", path("lattice.toml"), "-o", path("out.toml"), "--json"});
+  const auto run = calibrate({"--young", "3e10", "--poisson", "0.40", "--density", "2400", "--assembly",
+                              path("lattice.toml"), "-o", path("out.toml"), "--json"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.standard_error, HasSubstr("was not written"));
   const Json json = Json::parse(run.standard_output);
@@ -78,10 +88,12 @@ TEST_F(Calibrate, SaysWhatIsOutOfReachAndWritesNothing) {
 TEST_F(Calibrate, WritesDesignCurves) {
   write_lattice();
   std::filesystem::create_directory(in_folder("curves"));
-  const auto run = calibrate({"--young", "3e10", "--poisson", "0.2", "--density", "2400", "--assembly", path("lattice.toml"), "--curves", path("curves")});
+  const auto run = calibrate({"--young", "3e10", "--poisson", "0.2", "--density", "2400", "--assembly",
+                              path("lattice.toml"), "--curves", path("curves")});
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   EXPECT_THAT(read("curves/design-curves.svg"), HasSubstr("</svg>"));
-  EXPECT_THAT(read("curves/design-curves.csv"), AllOf(HasSubstr("kinematic_poisson_ratio"), HasSubstr("\nDEM,"), HasSubstr("\nDDEM F,")));
+  EXPECT_THAT(read("curves/design-curves.csv"),
+              AllOf(HasSubstr("kinematic_poisson_ratio"), HasSubstr("\nDEM,"), HasSubstr("\nDDEM F,")));
 }
 
 TEST_F(Calibrate, RefusesBadTargetsAndOptions) {
@@ -92,20 +104,23 @@ TEST_F(Calibrate, RefusesBadTargetsAndOptions) {
     std::vector<std::string> arguments;
     const char* says;
   };
-  for (const Refusal& r : {Refusal{{"--young", "-30e9", "--poisson", "0.25", "--density", "2400"}, "must be positive"},
-                           Refusal{{"--young", "30e9", "--poisson", "1.0", "--density", "2400"}, "between -1 and 1"},
-                           Refusal{{"--young", "30e9", "--poisson", "-1.5", "--density", "2400"}, "between -1 and 1"},
-                           Refusal{{"--young", "nan", "--poisson", "0.25", "--density", "2400"}, "finite"},
-                           Refusal{{"--young", "30e9", "--poisson", "nan", "--density", "2400"}, "between -1 and 1"},
-                           Refusal{{"--young", "30 kg", "--poisson", "0.25", "--density", "2400"}, "not a known unit of stress"},
-                           Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "heavy"}, "density"},
-                           Refusal{{"--young", "30e9", "--poisson", "0.25"}, "--density: missing"},
-                           Refusal{{"--young", "30e9", "--density", "2400"}, "two targets"},
-                           Refusal{{"--bar-velocity", "3000", "--shear-velocity", "1000", "--density", "2400"}, "contradict"},
-                           Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--plane", "both"}, "--plane"},
-                           Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--softness", "0.3"}, "[deformation]"},
-                           Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--stiffness-ratio", "-1"}, "from 0 to"},
-                           Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--seeds", "0"}, "--seeds"}}) {
+  for (const Refusal& r :
+       {Refusal{{"--young", "-30e9", "--poisson", "0.25", "--density", "2400"}, "must be positive"},
+        Refusal{{"--young", "30e9", "--poisson", "1.0", "--density", "2400"}, "between -1 and 1"},
+        Refusal{{"--young", "30e9", "--poisson", "-1.5", "--density", "2400"}, "between -1 and 1"},
+        Refusal{{"--young", "nan", "--poisson", "0.25", "--density", "2400"}, "finite"},
+        Refusal{{"--young", "30e9", "--poisson", "nan", "--density", "2400"}, "between -1 and 1"},
+        Refusal{{"--young", "30 kg", "--poisson", "0.25", "--density", "2400"}, "not a known unit of stress"},
+        Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "heavy"}, "density"},
+        Refusal{{"--young", "30e9", "--poisson", "0.25"}, "--density: missing"},
+        Refusal{{"--young", "30e9", "--density", "2400"}, "two targets"},
+        Refusal{{"--bar-velocity", "3000", "--shear-velocity", "1000", "--density", "2400"}, "contradict"},
+        Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--plane", "both"}, "--plane"},
+        Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--softness", "0.3"},
+                "[deformation]"},
+        Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--stiffness-ratio", "-1"},
+                "from 0 to"},
+        Refusal{{"--young", "30e9", "--poisson", "0.25", "--density", "2400", "--seeds", "0"}, "--seeds"}}) {
     std::vector<std::string> arguments = r.arguments;
     arguments.insert(arguments.end(), {"--assembly", lattice});
     const auto run = calibrate(arguments);
