@@ -125,6 +125,64 @@ double lateral_strain(const Packing& p, const StaticState& state, int dofs_per_d
   return (n * syu - sy * su) / (n * syy - sy * sy);
 }
 
+/// Mean strain of the fluctuation and mean stress: both linear in the state.
+struct Response {
+  Eigen::Vector3d strain, stress;
+};
+
+/// Without a gauge: of a periodic cell.
+Response response(const Assembly& a, const Operators& op, const StaticState& state, const StripGauge* gauge) {
+  if (gauge != nullptr) {
+    const int dofs = op.dofs_per_disc;
+    return {{gauge->slope(state, dofs, 0), 0.0, gauge->slope(state, dofs, 1)}, mean_stress(a, op, state, gauge->section())};
+  }
+  Eigen::Vector3d stress = Eigen::Vector3d::Zero();
+  for (std::size_t b = 0; b < a.bonds.size(); ++b) {
+    const Eigen::Vector2d f = bond_force(a.bonds, op, state, b);
+    const double lx = a.bonds.length[b] * a.bonds.nx[b], ly = a.bonds.length[b] * a.bonds.ny[b];
+    stress += Eigen::Vector3d(lx * f.x(), ly * f.y(), 0.5 * (lx * f.y() + ly * f.x()));
+  }
+  return {Eigen::Vector3d::Zero(), stress / (a.packing.period.x * a.packing.period.y * a.thickness)};
+}
+
+/// Rows xx and xy of a strip are exact, row yy is a mean: its coupling is that of the others.
+void couple_as_exact_rows(PlaneStiffness& c) {
+  c(0, 2) = c(2, 0) = 0.5 * (c(0, 2) + c(2, 0));
+  c(1, 0) = c(0, 1);
+  c(1, 2) = c(2, 1);
+}
+
+/// C = stress strain^-1 over three loads, dC = (d stress - C d strain) strain^-1. The affine shear moves u_x by y/2 and u_y
+/// by x/2; the fluctuation adds to the part along x.
+StiffnessRates homogenise(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
+                          const HeldDofs& held, const StripGauge* gauge, std::span<const Parameter> parameters) {
+  const StaticSolver solver(a, contact, deformation, held);
+  const Operators& op = solver.operators();
+  std::vector<OperatorRates> operator_rate;
+  for (const Parameter p : parameters) operator_rate.push_back(operator_rates(a, op, contact, deformation, p));
+  Eigen::Matrix3d strain = Eigen::Matrix3d::Identity(), stress;
+  std::vector<Eigen::Matrix3d> strain_rate(parameters.size()), stress_rate(parameters.size());
+  for (int k = 0; k < 3; ++k) {
+    const StaticState state = solver.solve(kUnitStrains[k]);
+    const Response r = response(a, op, state, gauge);
+    strain.col(k) += r.strain;
+    stress.col(k) = r.stress;
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      const Response rate = response(a, op, solver.rate(state, operator_rate[p]), gauge);
+      strain_rate[p].col(k) = rate.strain;
+      stress_rate[p].col(k) = rate.stress;
+    }
+  }
+  const Eigen::Matrix3d inverse = strain.inverse();
+  StiffnessRates out{stress * inverse, {}};
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    out.rates.push_back((stress_rate[p] - out.stiffness * strain_rate[p]) * inverse);
+    if (gauge != nullptr) couple_as_exact_rows(out.rates.back());
+  }
+  if (gauge != nullptr) couple_as_exact_rows(out.stiffness);
+  return out;
+}
+
 }  // namespace
 
 IsotropicModuli isotropic_part(const PlaneStiffness& c) {
@@ -132,45 +190,28 @@ IsotropicModuli isotropic_part(const PlaneStiffness& c) {
   return {(c(0, 0) + c(1, 1) + 2.0 * c12) / 4.0, (c(0, 0) + c(1, 1) - 2.0 * c12 + 4.0 * c(2, 2)) / 8.0};
 }
 
+StiffnessRates homogenise_with_rates(const Assembly& a, const ContactParameters& contact,
+                                     const DeformationParameters& deformation, double edge_band,
+                                     std::span<const Parameter> parameters) {
+  if (a.packing.period.x > 0.0 && a.packing.period.y > 0.0) return homogenise(a, contact, deformation, {}, nullptr, parameters);
+  const HeldDofs held = hold_ends(a.packing, edge_band, true);
+  const StripGauge gauge(a.packing);
+  return homogenise(a, contact, deformation, held, &gauge, parameters);
+}
+
 PlaneStiffness homogenise_cell(const Assembly& a, const ContactParameters& contact,
                                const DeformationParameters& deformation) {
   if (a.packing.period.x <= 0.0 || a.packing.period.y <= 0.0) {
     throw std::invalid_argument("homogenisation of a cell needs periods in x and y");
   }
-  const StaticSolver solver(a, contact, deformation, {});
-  PlaneStiffness c;
-  for (int k = 0; k < 3; ++k) {
-    const StaticState state = solver.solve(kUnitStrains[k]);
-    Eigen::Vector3d stress = Eigen::Vector3d::Zero();
-    for (std::size_t b = 0; b < a.bonds.size(); ++b) {
-      const Eigen::Vector2d f = bond_force(a.bonds, solver.operators(), state, b);
-      const double lx = a.bonds.length[b] * a.bonds.nx[b], ly = a.bonds.length[b] * a.bonds.ny[b];
-      stress += Eigen::Vector3d(lx * f.x(), ly * f.y(), 0.5 * (lx * f.y() + ly * f.x()));
-    }
-    c.col(k) = stress / (a.packing.period.x * a.packing.period.y * a.thickness);
-  }
-  return c;
+  return homogenise(a, contact, deformation, {}, nullptr, {}).stiffness;
 }
 
 PlaneStiffness homogenise_strip(const Assembly& a, const ContactParameters& contact,
                                 const DeformationParameters& deformation, double edge_band) {
-  const StaticSolver solver(a, contact, deformation, hold_ends(a.packing, edge_band, true));
+  const HeldDofs held = hold_ends(a.packing, edge_band, true);
   const StripGauge gauge(a.packing);
-  const int dofs = solver.operators().dofs_per_disc;
-  Eigen::Matrix3d strain, stress;
-  for (int k = 0; k < 3; ++k) {
-    const StaticState state = solver.solve(kUnitStrains[k]);
-    // The affine shear moves u_x by y/2 and u_y by x/2; the fluctuation adds to the part along x.
-    strain.col(k) = Eigen::Vector3d(kUnitStrains[k].xx + gauge.slope(state, dofs, 0), kUnitStrains[k].yy,
-                                    kUnitStrains[k].xy + gauge.slope(state, dofs, 1));
-    stress.col(k) = mean_stress(a, solver.operators(), state, gauge.section());
-  }
-  PlaneStiffness c = stress * strain.inverse();
-  // Rows xx and xy are exact, row yy is a mean: its coupling is that of the others.
-  c(0, 2) = c(2, 0) = 0.5 * (c(0, 2) + c(2, 0));
-  c(1, 0) = c(0, 1);
-  c(1, 2) = c(2, 1);
-  return c;
+  return homogenise(a, contact, deformation, held, &gauge, {}).stiffness;
 }
 
 double StripTension::bar_velocity() const { return std::sqrt(axial_stiffness / mass_per_length); }

@@ -3,9 +3,12 @@
 // Moduli are plane moduli divided by the thickness (Pa for unit thickness).
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
+#include "dem/statics/operator_rates.h"
 
 namespace ddem {
 
@@ -32,6 +35,18 @@ PlaneStiffness homogenise_cell(const Assembly& assembly, const ContactParameters
 /// between two inner sections, away from the ends.
 PlaneStiffness homogenise_strip(const Assembly& assembly, const ContactParameters& contact,
                                 const DeformationParameters& deformation, double edge_band);
+
+/// A stiffness and its derivatives with respect to parameters of contacts and discs.
+struct StiffnessRates {
+  PlaneStiffness stiffness;
+  std::vector<PlaneStiffness> rates;  ///< one a parameter
+};
+
+/// Either of the two above, whichever the packing's periods ask for, with the derivatives: each takes three more solves by
+/// the same factorisation. Throws as they do and as operator_rates().
+StiffnessRates homogenise_with_rates(const Assembly& assembly, const ContactParameters& contact,
+                                     const DeformationParameters& deformation, double edge_band,
+                                     std::span<const Parameter> parameters);
 
 /// The free strip pulled at its ends (their u_x held, u_y free), measured between two inner sections.
 struct StripTension {

@@ -42,6 +42,47 @@ struct StaticSolver::Impl {
   /// Fluctuation, strains and forces that balance these overlaps of the affine or imposed motion.
   StaticState balance(const Eigen::VectorXd& affine) const;
 
+  /// -C^T force over the scale in the rows of displacements, zero in those of strains.
+  Eigen::VectorXd load_of(const Eigen::VectorXd& force) const {
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(matrix.rows());
+    const Eigen::VectorXd load = op.overlap.transpose() * force;
+    for (Eigen::Index d = 0; d < load.size(); ++d) {
+      if (reduced[d] >= 0) rhs[reduced[d]] = -load[d] / scale;
+    }
+    return rhs;
+  }
+
+  Eigen::VectorXd refined_solution(const Eigen::VectorXd& rhs, double target) const {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(rhs.size());
+    Eigen::VectorXd residual = rhs;
+    for (int k = 0; k < kRefinements && residual.norm() > target; ++k) {
+      x += apply_inverse(residual);
+      residual = rhs - matrix * x;
+    }
+    if (!(residual.norm() <= target)) {
+      throw std::runtime_error("the static solve did not converge: the assembly has a mechanism that the load drives");
+    }
+    return x;
+  }
+
+  /// Fluctuation and strains of a solution; no forces yet.
+  StaticState unpack(const Eigen::VectorXd& x) const {
+    StaticState state;
+    state.fluctuation = Eigen::VectorXd::Zero(op.overlap.cols());
+    for (Eigen::Index d = 0; d < state.fluctuation.size(); ++d) {
+      if (reduced[d] >= 0) state.fluctuation[d] = x[reduced[d]];
+    }
+    if (op.deformable()) state.strain = x.tail(op.stress.rows());
+    return state;
+  }
+
+  /// C q - G eps.
+  Eigen::VectorXd overlaps_of(const StaticState& state) const {
+    Eigen::VectorXd overlaps = op.overlap * state.fluctuation;
+    if (op.deformable()) overlaps -= op.strain_overlap * state.strain;
+    return overlaps;
+  }
+
   void number_unknowns(const HeldDofs& held) {
     reduced.assign(static_cast<std::size_t>(op.overlap.cols()), -1);
     const auto is_held = [](const std::vector<std::uint8_t>& h, std::size_t p) { return !h.empty() && h[p]; };
@@ -133,40 +174,29 @@ StaticState StaticSolver::solve_moved(const Eigen::VectorXd& displacement) const
 }
 
 StaticState StaticSolver::Impl::balance(const Eigen::VectorXd& affine) const {
-  const Impl& m = *this;
   const Eigen::VectorXd affine_force = op.stiffness.cwiseProduct(affine);
+  Eigen::VectorXd rhs = load_of(affine_force);
+  if (op.deformable()) rhs.tail(op.stress.rows()) = op.stress * affine_force / scale;
 
-  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(m.matrix.rows());
-  const Eigen::VectorXd load = op.overlap.transpose() * affine_force;
-  for (Eigen::Index d = 0; d < load.size(); ++d) {
-    if (m.reduced[d] >= 0) rhs[m.reduced[d]] = -load[d] / m.scale;
-  }
-  if (op.deformable()) rhs.tail(op.stress.rows()) = op.stress * affine_force / m.scale;
-
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(rhs.size());
-  Eigen::VectorXd residual = rhs;
   // Relative to the affine forces, not to the right-hand side: that one vanishes on a perfect lattice.
-  const double target = kResidual * affine.norm();
-  for (int k = 0; k < kRefinements && residual.norm() > target; ++k) {
-    x += m.apply_inverse(residual);
-    residual = rhs - m.matrix * x;
-  }
-  if (!(residual.norm() <= target)) {
-    throw std::runtime_error("the static solve did not converge: the assembly has a mechanism that the load drives");
-  }
+  const Eigen::VectorXd x = refined_solution(rhs, kResidual * affine.norm());
 
-  StaticState state;
-  state.fluctuation = Eigen::VectorXd::Zero(op.overlap.cols());
-  for (Eigen::Index d = 0; d < state.fluctuation.size(); ++d) {
-    if (m.reduced[d] >= 0) state.fluctuation[d] = x[m.reduced[d]];
-  }
-  Eigen::VectorXd overlaps = affine + op.overlap * state.fluctuation;
-  if (op.deformable()) {
-    state.strain = x.tail(op.stress.rows());
-    overlaps -= op.strain_overlap * state.strain;
-  }
-  state.bond_forces = op.stiffness.cwiseProduct(overlaps);
+  StaticState state = unpack(x);
+  state.bond_forces = op.stiffness.cwiseProduct(affine + overlaps_of(state));
   return state;
+}
+
+StaticState StaticSolver::rate(const StaticState& state, const OperatorRates& rates) const {
+  const Impl& m = *impl_;
+  const Eigen::VectorXd overlaps = state.bond_forces.cwiseQuotient(m.op.stiffness);
+  const Eigen::VectorXd force = rates.stiffness.cwiseProduct(overlaps);
+  Eigen::VectorXd rhs = m.load_of(force);
+  if (m.op.deformable()) {
+    rhs.tail(m.op.stress.rows()) = (m.op.stress * force - rates.strain_stiffness * state.strain) / m.scale;
+  }
+  StaticState change = m.unpack(m.refined_solution(rhs, kResidual * (rhs.norm() + state.bond_forces.norm() / m.scale)));
+  change.bond_forces = force + m.op.stiffness.cwiseProduct(m.overlaps_of(change));
+  return change;
 }
 
 }  // namespace ddem

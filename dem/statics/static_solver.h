@@ -22,6 +22,12 @@ struct StaticState {
   Eigen::VectorXd bond_forces;   ///< rows as in Operators::overlap, N
 };
 
+/// How the operators change with a parameter p: C, G and S do not.
+struct OperatorRates {
+  Eigen::VectorXd stiffness;      ///< diagonal of dK/dp, N/m a unit of p
+  SparseMatrix strain_stiffness;  ///< d(V_p C_p)/dp; empty without deformation
+};
+
 /// Force (x, y) of bond c on its disc i, N.
 Eigen::Vector2d bond_force(const Bonds& bonds, const Operators& operators, const StaticState& state, std::size_t c);
 
@@ -43,6 +49,10 @@ class StaticSolver {
   StaticState solve(const MacroStrain& strain) const;
   /// The same for held degrees of freedom that are moved: their entries of `displacement` (q as in Operators, the others 0).
   StaticState solve_moved(const Eigen::VectorXd& displacement) const;
+  /// d(state)/dp of an equilibrium that solve() returned, macroscopic strain and held degrees of freedom as they are:
+  ///   M [dq; deps] = [ -C^T dK w; S dK w - d(V C) eps ],  dF = dK w + K (C dq - G deps),  w = K^-1 F,
+  /// by the same factorisation. Throws as solve().
+  StaticState rate(const StaticState& state, const OperatorRates& rates) const;
   const Operators& operators() const;
 
  private:

@@ -15,6 +15,7 @@ void add_moduli_command(CLI::App& app, Action& action);
 void add_stability_command(CLI::App& app, Action& action);
 void add_pack_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
+void add_calibrate_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_scene_reference_command(CLI::App& app, Action& action);

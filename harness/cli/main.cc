@@ -18,6 +18,8 @@ constexpr const char* kFooter = R"(Examples:
   ddem run scene.toml --json             one simulation, its wave speed as JSON
   ddem moduli scene.toml                 static moduli and wave speeds of its assembly
   ddem stability scene.toml              its critical step, limits and numerical damping
+  ddem calibrate --young "30 GPa" --poisson 0.25 --density 2400
+                                         contact parameters that give these moduli
   ddem fem scene.toml --signals s.csv    the continuum model of the same strip
 
 Exit codes: 0 done, within tolerance; 1 a verdict failed; 2 wrong use or input;
@@ -36,6 +38,7 @@ int run(int argc, char** argv) {
   add_moduli_command(app, action);
   add_stability_command(app, action);
   add_pack_command(app, action);
+  add_calibrate_command(app, action);
   add_bench_command(app, action);
   add_report_command(app, action);
   add_scene_reference_command(app, action);

@@ -14,13 +14,14 @@ struct DimensionText {
   std::string_view name, si_unit, examples;
 };
 
-constexpr std::array<DimensionText, 6> dimension_texts{{
+constexpr std::array<DimensionText, 7> dimension_texts{{
     {"number", "", "0.25"},
     {"length", "m", "\"16.5 mm\", \"1 um\" or 0.0165 (metres)"},
     {"time", "s", "\"3 us\", \"2e-5 s\" or 2e-5 (seconds)"},
     {"stress", "Pa", "\"10 GPa\", \"200 MPa\" or 1e10 (pascals)"},
     {"density", "kg/m3", "\"2000 kg/m3\", \"2 g/cm3\" or 2000 (kg/m3)"},
     {"stiffness", "N/m", "\"10 GN/m\", \"1e10 N/m\" or 1e10 (N/m)"},
+    {"velocity", "m/s", "\"3500 m/s\", \"3.5 km/s\" or 3500 (m/s)"},
 }};
 
 const DimensionText& text_of(Dimension dimension) {
@@ -42,6 +43,7 @@ constexpr std::array base_units{
     BaseUnit{Dimension::density, "g/cm3", 3, ""},    BaseUnit{Dimension::density, "kg/dm3", 3, ""},
     BaseUnit{Dimension::density, "t/m3", 3, ""},     BaseUnit{Dimension::stiffness, "N/m", 0, "kMG"},
     BaseUnit{Dimension::stiffness, "N/mm", 3, "kM"},
+    BaseUnit{Dimension::velocity, "m/s", 0, "k"},
 };
 
 struct Prefix {

@@ -7,7 +7,7 @@
 
 namespace ddem::harness {
 
-enum class Dimension { none, length, time, stress, density, stiffness };
+enum class Dimension { none, length, time, stress, density, stiffness, velocity };
 
 /// "length", "time", ...; "number" for Dimension::none.
 std::string_view dimension_name(Dimension dimension);

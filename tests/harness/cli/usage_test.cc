@@ -50,7 +50,7 @@ TEST_F(Cli, WrongArguments) {
 
 TEST_F(Cli, CommandsToComeSaySo) {
   write("scene.toml", small_scene());
-  for (const char* command : {"calibrate", "compare"}) {
+  for (const char* command : {"compare"}) {
     const auto run = ddem({command, path("scene.toml"), "--json"});
     EXPECT_EQ(run.exit_code, 2) << command;
     EXPECT_THAT(run.standard_error, HasSubstr(std::string("ddem ") + command + ": not built yet"));
