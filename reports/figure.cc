@@ -63,7 +63,8 @@ class Checker {
       if (!std::isfinite(t)) fail("a frame's time is not finite");
     for (const StripField& f : strip.fields) {
       if (f.values.size() != strip.times.size() * strip.x.size())
-        fail(fmt::format("field '{}' has {} values for {} frames of {} discs", f.axis.label, f.values.size(), strip.times.size(), strip.x.size()));
+        fail(fmt::format("field '{}' has {} values for {} frames of {} discs", f.axis.label, f.values.size(),
+                         strip.times.size(), strip.x.size()));
       if (!f.axis.limits || f.axis.scale != Scale::linear) fail("a field over time needs linear limits of its colours");
       check_axis(f.axis, "field over time");
     }

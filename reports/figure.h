@@ -132,8 +132,8 @@ struct Figure {
 };
 
 /// Throws std::invalid_argument, naming figure and series, if lengths differ within a series, a radius is not
-/// positive and finite, a disc's or probe's position or a frame's time is not finite, a heat map's centres do not ascend, or limits are empty or
-/// not drawable.
+/// positive and finite, a disc's or probe's position or a frame's time is not finite, a heat map's centres do not ascend, or
+/// limits are empty or not drawable.
 void require_valid(const Figure& figure);
 
 }  // namespace ddem::reports

@@ -1,5 +1,5 @@
 #pragma once
-// Style sheet and script of the report: report.css and report.js, as text of the program.
+// Style sheet and script of the report: report.css; report.js, film.js and figures.js, as text of the program.
 
 #include <string_view>
 

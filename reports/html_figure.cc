@@ -50,7 +50,8 @@ void append_figure(Markup& out, const Figure& figure, const std::string& anchor,
   if (!figure.title.empty()) out.element("h3", {}, figure.title).newline();
   if (detail.live_points > 0) {
     out.open("div", {{"class", "live"}}).text("").close();
-    out.open("script", {{"type", "application/json"}, {"class", "figure-data"}}).raw(live_figure(figure, detail.live_points)).close().newline();
+    out.open("script", {{"type", "application/json"}, {"class", "figure-data"}});
+    out.raw(live_figure(figure, detail.live_points)).close().newline();
   }
   out.open("div", {{"class", detail.narrow_drawings ? "drawing wide" : detail.live_points > 0 ? "drawing still" : "drawing"}});
   out.raw(render_embedded_svg(figure, {.width = 860.0, .side_by_side = true, .id_prefix = anchor + "-w"}))

@@ -20,7 +20,8 @@
 namespace ddem::reports {
 namespace {
 
-constexpr double kTypicalWidth = 400.0, kTypicalHeight = 260.0;  // px, for the unit of an axis and the ticks of a colour bar
+constexpr double kTypicalWidth = 400.0,
+                 kTypicalHeight = 260.0;  // px, for the unit of an axis and the ticks of a colour bar
 
 /// Markup-safe text of a document.
 std::string script_text(const Json& document) {
@@ -80,14 +81,20 @@ bool thin(Plot& plot, std::size_t max_points) {
 
 Json marks_json(const Axis& axis, Limits limits) {
   const AxisMarks marks = axis_marks_along(axis, limits, kTypicalWidth);
-  return {{"title", marks.title}, {"exponent", marks.exponent}, {"lower", limits.lower}, {"upper", limits.upper}, {"log", axis.scale == Scale::log}};
+  return {{"title", marks.title},
+          {"exponent", marks.exponent},
+          {"lower", limits.lower},
+          {"upper", limits.upper},
+          {"log", axis.scale == Scale::log}};
 }
 
 void add_looks(Json& panel, const Plot& plot, const StyleBook& styles) {
   panel["xmarks"] = marks_json(plot.x, x_limits(plot));
   panel["ymarks"] = marks_json(plot.y, y_limits(plot));
-  for (std::size_t i = 0; i < plot.series.size(); ++i) panel["series"][i]["style"] = styles.index_of(plot.series[i]);
-  for (std::size_t i = 0; i < plot.bands.size(); ++i) panel["bands"][i]["style"] = styles.index_of(plot.bands[i]);
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+    panel["series"][i]["style"] = styles.index_of(plot.series[i]);
+  for (std::size_t i = 0; i < plot.bands.size(); ++i)
+    panel["bands"][i]["style"] = styles.index_of(plot.bands[i]);
   for (std::size_t i = 0; i < plot.picks.size(); ++i) {
     Json& pick = panel["picks"][i];
     pick["color"] = styles.color_of(plot.picks[i]);
@@ -97,7 +104,8 @@ void add_looks(Json& panel, const Plot& plot, const StyleBook& styles) {
   if (!plot.map) return;
   panel["map"]["title"] = color_title(*plot.map);
   panel["map"]["ticks"] = Json::array();
-  for (const ColorTick& t : color_ticks(*plot.map, kTypicalHeight)) panel["map"]["ticks"].push_back({{"at", t.fraction}, {"label", t.label}});
+  for (const ColorTick& t : color_ticks(*plot.map, kTypicalHeight))
+    panel["map"]["ticks"].push_back({{"at", t.fraction}, {"label", t.label}});
 }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -120,7 +128,9 @@ void add_looks(Json& panel, const Strip& strip) {
     const auto [lower, upper] = *field.axis.limits;
     std::vector<std::uint8_t> levels;
     for (const double v : field.values)
-      levels.push_back(std::isfinite(v) ? static_cast<std::uint8_t>(std::lround(std::clamp((v - lower) / (upper - lower), 0.0, 1.0) * kTop)) : kNoValue);
+      levels.push_back(std::isfinite(v) ? static_cast<std::uint8_t>(std::lround(
+                                              std::clamp((v - lower) / (upper - lower), 0.0, 1.0) * kTop))
+                                        : kNoValue);
     Json& f = panel["fields"][i];
     f["marks"] = marks_json(field.axis, *field.axis.limits);
     f["signed"] = is_signed(*field.axis.limits);
@@ -129,11 +139,17 @@ void add_looks(Json& panel, const Strip& strip) {
 }
 
 Json styles_json(const StyleBook& styles) {
-  constexpr std::string_view dashes[] = {"solid", "dashed", "dotted"}, markers[] = {"circle", "square", "triangle", "diamond"};
+  constexpr std::string_view dashes[] = {"solid", "dashed", "dotted"},
+                             markers[] = {"circle", "square", "triangle", "diamond"};
   Json all = Json::array();
   for (const Style& s : styles.styles())
-    all.push_back({{"name", s.name}, {"color", color_hex(s.color)}, {"dash", dashes[static_cast<std::size_t>(s.dash)]},
-                   {"marker", markers[static_cast<std::size_t>(s.marker)]}, {"line", s.has_line}, {"points", s.has_marker}, {"band", s.has_band}});
+    all.push_back({{"name", s.name},
+                   {"color", color_hex(s.color)},
+                   {"dash", dashes[static_cast<std::size_t>(s.dash)]},
+                   {"marker", markers[static_cast<std::size_t>(s.marker)]},
+                   {"line", s.has_line},
+                   {"points", s.has_marker},
+                   {"band", s.has_band}});
   return all;
 }
 

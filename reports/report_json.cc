@@ -175,7 +175,8 @@ constexpr auto names(Scale) {
   return std::array{Name{Scale::linear, "linear"}, Name{Scale::log, "log"}};
 }
 constexpr auto names(SeriesKind) {
-  return std::array{Name{SeriesKind::line, "line"}, Name{SeriesKind::markers, "markers"}, Name{SeriesKind::line_markers, "line_markers"}};
+  return std::array{Name{SeriesKind::line, "line"}, Name{SeriesKind::markers, "markers"},
+                    Name{SeriesKind::line_markers, "line_markers"}};
 }
 constexpr auto names(Dash) {
   return std::array{Name{Dash::solid, "solid"}, Name{Dash::dashed, "dashed"}, Name{Dash::dotted, "dotted"}};
@@ -184,13 +185,20 @@ constexpr auto names(Direction) {
   return std::array{Name{Direction::horizontal, "horizontal"}, Name{Direction::vertical, "vertical"}};
 }
 constexpr auto names(Color) {
-  return std::array{Name{Color::automatic, "automatic"}, Name{Color::blue, "blue"},     Name{Color::vermilion, "vermilion"},
-                    Name{Color::green, "green"},         Name{Color::orange, "orange"}, Name{Color::purple, "purple"},
-                    Name{Color::sky, "sky"},             Name{Color::black, "black"},   Name{Color::yellow, "yellow"},
+  return std::array{Name{Color::automatic, "automatic"},
+                    Name{Color::blue, "blue"},
+                    Name{Color::vermilion, "vermilion"},
+                    Name{Color::green, "green"},
+                    Name{Color::orange, "orange"},
+                    Name{Color::purple, "purple"},
+                    Name{Color::sky, "sky"},
+                    Name{Color::black, "black"},
+                    Name{Color::yellow, "yellow"},
                     Name{Color::grey, "grey"}};
 }
 constexpr auto names(ColorScale) {
-  return std::array{Name{ColorScale::linear, "linear"}, Name{ColorScale::log, "log"}, Name{ColorScale::signed_log, "signed_log"}};
+  return std::array{Name{ColorScale::linear, "linear"}, Name{ColorScale::log, "log"},
+                    Name{ColorScale::signed_log, "signed_log"}};
 }
 constexpr auto names(State) {
   return std::array{Name{State::error, "error"},
@@ -210,7 +218,8 @@ class Writer {
   template <class T>
   void operator()(const char* key, const T& member) {
     Json value = of(member);
-    if (!(value.is_array() || value.is_string() || value.is_object()) || !value.empty()) object_[key] = std::move(value);
+    if (!(value.is_array() || value.is_string() || value.is_object()) || !value.empty())
+      object_[key] = std::move(value);
   }
 
  private:
@@ -222,7 +231,9 @@ class Writer {
   Json of(const Cell& cell) {
     return std::visit([&](const auto& v) { return of(v); }, cell.value);
   }
-  Json of(const std::pair<std::string, std::string>& entry) { return Json::array({entry.first, entry.second}); }
+  Json of(const std::pair<std::string, std::string>& entry) {
+    return Json::array({entry.first, entry.second});
+  }
   Json of(const Panel& panel) {
     Json object = std::visit([&](const auto& p) { return of(p); }, panel);
     object["type"] = std::holds_alternative<Plot>(panel) ? "plot" : "strip";
@@ -277,7 +288,9 @@ class Reader {
 
  private:
   void take(const Json& j, std::string& text) { text = j.get<std::string>(); }
-  void take(const Json& j, double& number) { number = j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>(); }
+  void take(const Json& j, double& number) {
+    number = j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>();
+  }
   void take(const Json& j, std::size_t& number) { number = j.get<std::size_t>(); }
   void take(const Json& j, int& number) { number = j.get<int>(); }
   void take(const Json& j, std::vector<double>& values) { values = get_(j); }

@@ -95,7 +95,9 @@ void draw_discs(Markup& out, const Strip& strip, const Layout& l) {
     bins[bin].push_back(i);
   }
   out.open("g",
-           {{"class", "discs"}, {"stroke", is_signed(limits) ? "#9aa3ad" : "#fff"}, {"stroke-width", l.discs.width > 600 ? "0.5" : "0.25"}});
+           {{"class", "discs"},
+            {"stroke", is_signed(limits) ? "#9aa3ad" : "#fff"},
+            {"stroke-width", l.discs.width > 600 ? "0.5" : "0.25"}});
   for (std::size_t bin = 0; bin < bins.size(); ++bin) {
     if (bins[bin].empty()) continue;
     const std::string color = bin == kColorBins ? std::string(strip.value.empty() ? "#a9bdd0" : "#c4c4c4")

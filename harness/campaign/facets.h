@@ -7,7 +7,8 @@
 
 namespace ddem::harness {
 
-/// Of a case's id: {"check", "long-wave"}, {"packing", "random"}, {"scheme", "lagged-full"}; those that the id names.
+/// Of a case's id: {"check", "long-wave"}, {"packing", "random"}, {"scheme", "lagged-full"}; those that the
+/// id names.
 std::vector<std::pair<std::string, std::string>> facets_of(const std::string& case_id);
 
 }  // namespace ddem::harness

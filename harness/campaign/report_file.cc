@@ -35,8 +35,9 @@ class ArrayStore {
  private:
   struct ByBits {
     bool operator()(const std::vector<double>& a, const std::vector<double>& b) const {
-      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
-                                          [](double x, double y) { return std::bit_cast<std::uint64_t>(x) < std::bit_cast<std::uint64_t>(y); });
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) < std::bit_cast<std::uint64_t>(y);
+      });
     }
   };
   Hdf5Group group_;
@@ -47,14 +48,18 @@ reports::Report read_report(const Hdf5Group& stored) {
   const std::vector<std::string> structure = stored.read_strings("structure");
   if (structure.size() != 1) throw std::invalid_argument("structure: not one text");
   const Hdf5Group arrays = stored.group("arrays");
-  const auto get = [&](const reports::Json& name) { return arrays.read_doubles(name.get<std::string>()).values; };
+  const auto get = [&](const reports::Json& name) {
+    return arrays.read_doubles(name.get<std::string>()).values;
+  };
   return reports::report_from_json(reports::Json::parse(structure.front()), get);
 }
 
-/// plotly, which the build puts beside the program; empty where it could not be fetched: then figures are SVG.
+/// plotly, which the build puts beside the program; empty where it could not be fetched: then figures are
+/// SVG.
 std::string plotting_library() {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path library = program.parent_path().parent_path() / "share/ddem/plotly-cartesian.min.js";
+  const std::filesystem::path library =
+      program.parent_path().parent_path() / "share/ddem/plotly-cartesian.min.js";
   return std::filesystem::exists(library) ? read_file(library) : std::string();
 }
 
@@ -69,9 +74,11 @@ void store_report(Hdf5Group& root, const reports::Report& report) {
   Hdf5Group group = root.create_group("report");
   group.set_attribute("schema_version", kSchemaVersion);
   ArrayStore arrays(group.create_group("arrays"));
-  const reports::Json document = reports::to_json(report, [&](const std::vector<double>& values) { return arrays.put(values); });
+  const reports::Json document =
+      reports::to_json(report, [&](const std::vector<double>& values) { return arrays.put(values); });
   // Bytes that are not UTF-8, of a message of the system perhaps, must not cost the report.
-  group.write("structure", std::vector<std::string>{document.dump(-1, ' ', false, reports::Json::error_handler_t::replace)});
+  group.write("structure", std::vector<std::string>{
+                               document.dump(-1, ' ', false, reports::Json::error_handler_t::replace)});
 }
 
 reports::Report load_report(const std::filesystem::path& folder) {
@@ -82,19 +89,25 @@ reports::Report load_report(const std::filesystem::path& folder) {
   const Hdf5File file = Hdf5File::open(path);
   const Hdf5Group root = file.root();
   if (!root.contains("report")) {
-    throw InputError(path.string() + ": holds no report: an older ddem wrote it, or another program; run `ddem validate` again");
+    throw InputError(
+        path.string() +
+        ": holds no report: an older ddem wrote it, or another program; run `ddem validate` again");
   }
   const Hdf5Group stored = root.group("report");
   if (const std::int64_t version = stored.int_attribute("schema_version"); version != kSchemaVersion) {
-    throw InputError(fmt::format("{}: schema_version = {}, but this ddem draws {}; use the ddem that wrote it, or run `ddem validate` again",
-                                 stored.place(), version, kSchemaVersion));
+    throw InputError(
+        fmt::format("{}: schema_version = {}, but this ddem draws {}; use the ddem that wrote it, or run "
+                    "`ddem validate` again",
+                    stored.place(), version, kSchemaVersion));
   }
   try {
     return read_report(stored);
   } catch (const reports::Json::exception& e) {
-    throw InputError(fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
+    throw InputError(
+        fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
   } catch (const std::invalid_argument& e) {
-    throw InputError(fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
+    throw InputError(
+        fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
   }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // The report inside results.h5, from which it can be drawn again, and the files that are drawn.
 //
-// /report: attribute schema_version; dataset `structure`, one JSON text (reports/report_json.h) in which an array of numbers is
-// the name of a dataset in /report/arrays.
+// /report: attribute schema_version; dataset `structure`, one JSON text (reports/report_json.h) in which an
+// array of numbers is the name of a dataset in /report/arrays.
 
 #include <filesystem>
 #include <string>
@@ -15,12 +15,12 @@ namespace ddem::harness {
 /// Writes /report into the file of `root`.
 void store_report(Hdf5Group& root, const reports::Report& report);
 
-/// The report of FOLDER/results.h5. Throws InputError, which says what to do, where there is none, an older program wrote it,
-/// or it is damaged.
+/// The report of FOLDER/results.h5. Throws InputError, which says what to do, where there is none, an older
+/// program wrote it, or it is damaged.
 reports::Report load_report(const std::filesystem::path& folder);
 
-/// report.html, and each figure as figures/ID.svg and figures/ID.csv. Everything is drawn before the first file is written, and each
-/// file is replaced whole or not at all. Throws MachineError.
+/// report.html, and each figure as figures/ID.svg and figures/ID.csv. Everything is drawn before the first
+/// file is written, and each file is replaced whole or not at all. Throws MachineError.
 void write_report_files(const std::filesystem::path& folder, const reports::Report& report);
 
 }  // namespace ddem::harness

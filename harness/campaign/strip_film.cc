@@ -26,11 +26,18 @@ std::vector<double> over_time(const FilmedRun& run, const Take& take) {
   return values;
 }
 
-const std::vector<double>& displacement(const ddem::Snapshot& s) { return s.state.ux; }
-const std::vector<double>& stress(const ddem::Snapshot& s) { return s.stress.xx; }
-const std::vector<double>& strain(const ddem::Snapshot& s) { return s.strain.xx; }
+const std::vector<double>& displacement(const ddem::Snapshot& s) {
+  return s.state.ux;
+}
+const std::vector<double>& stress(const ddem::Snapshot& s) {
+  return s.stress.xx;
+}
+const std::vector<double>& strain(const ddem::Snapshot& s) {
+  return s.strain.xx;
+}
 
-/// Symmetric, and the same for all runs. The few values beyond, at the released edge, would leave the wave without colour.
+/// Symmetric, and the same for all runs. The few values beyond, at the released edge, would leave the wave
+/// without colour.
 template <class Take>
 reports::Limits common_limits(const StripFilm& film, const Take& take) {
   std::vector<double> sizes;
@@ -39,7 +46,8 @@ reports::Limits common_limits(const StripFilm& film, const Take& take) {
   }
   double largest = 0.0;
   if (!sizes.empty()) {
-    const auto nearly_all = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
+    const auto nearly_all =
+        sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
     std::nth_element(sizes.begin(), nearly_all, sizes.end());
     largest = *nearly_all;
   }
@@ -47,7 +55,8 @@ reports::Limits common_limits(const StripFilm& film, const Take& take) {
 }
 
 template <class Take>
-void add_field(reports::Strip& strip, const FilmedRun& run, reports::Axis axis, reports::Limits limits, const Take& take) {
+void add_field(reports::Strip& strip, const FilmedRun& run, reports::Axis axis, reports::Limits limits,
+               const Take& take) {
   axis.limits = limits;
   strip.fields.push_back({axis, over_time(run, take)});
 }
@@ -56,9 +65,12 @@ void add_field(reports::Strip& strip, const FilmedRun& run, reports::Axis axis, 
 
 StripFilm film_strip(const StripCampaign& s) {
   StripFilm film;
-  film.stiffness_ratio = *std::min_element(s.stiffness_ratios.begin(), s.stiffness_ratios.end(), [](double a, double b) { return std::abs(a - 0.3) < std::abs(b - 0.3); });
+  film.stiffness_ratio =
+      *std::min_element(s.stiffness_ratios.begin(), s.stiffness_ratios.end(),
+                        [](double a, double b) { return std::abs(a - 0.3) < std::abs(b - 0.3); });
   for (const Model model : s.models) {
-    const StripCase c{StripPacking::random, s.seeds.front(), model, film.stiffness_ratio, Protocol::paper, StripWave::bar};
+    const StripCase c{StripPacking::random, s.seeds.front(), model,
+                      film.stiffness_ratio, Protocol::paper, StripWave::bar};
     RunOptions options;
     options.warn = false;
     options.energy_samples = kEnergySamples;
@@ -73,7 +85,9 @@ StripFilm film_strip(const StripCampaign& s) {
       if (!film.probes.empty()) continue;
       for (std::size_t p = 0; p < run.layout.probes.size(); ++p) {
         const auto& probe = run.layout.probes[p];
-        film.probes.push_back({probe.x, probe.y, fmt::format("{}{}", static_cast<char>('A' + static_cast<int>(p / 2) % 26), p % 2 + 1)});
+        film.probes.push_back(
+            {probe.x, probe.y,
+             fmt::format("{}{}", static_cast<char>('A' + static_cast<int>(p / 2) % 26), p % 2 + 1)});
       }
     } catch (const std::exception& e) {
       film.failure = e.what();
@@ -84,14 +98,19 @@ StripFilm film_strip(const StripCampaign& s) {
 
 reports::Figure film_figure(const StripFilm& film) {
   reports::Figure figure{.id = "strip", .title = "A wave through the random strip"};
-  const reports::Limits u = common_limits(film, displacement), sigma = common_limits(film, stress), eps = common_limits(film, strain);
+  const reports::Limits u = common_limits(film, displacement), sigma = common_limits(film, stress),
+                        eps = common_limits(film, strain);
   double shown = 0.0;
   for (const FilmedRun& run : film.runs) {
     if (run.frames.empty()) continue;
     const ddem::Snapshot& half_way = run.frames[run.frames.size() / 2];
     shown = half_way.time;
-    reports::Strip strip{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(run.model), film.stiffness_ratio), .x = run.packing.x, .y = run.packing.y,
-                         .radius = run.packing.radius, .value = half_way.state.ux, .value_axis = {.label = "displacement along x", .unit = "m", .limits = u},
+    reports::Strip strip{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(run.model), film.stiffness_ratio),
+                         .x = run.packing.x,
+                         .y = run.packing.y,
+                         .radius = run.packing.radius,
+                         .value = half_way.state.ux,
+                         .value_axis = {.label = "displacement along x", .unit = "m", .limits = u},
                          .probes = film.probes};
     for (const ddem::Snapshot& s : run.frames) strip.times.push_back(s.time);
     add_field(strip, run, {.label = "displacement along x", .unit = "m"}, u, displacement);
@@ -99,22 +118,34 @@ reports::Figure film_figure(const StripFilm& film) {
     add_field(strip, run, {.label = "strain εxx of the discs"}, eps, strain);
     figure.panels.emplace_back(std::move(strip));
   }
-  figure.caption = fmt::format("The discs of the left edge are displaced and let go (bar, free edges); the wave runs to the right, over the probes: velocities are measured "
-                               "from A1 to A2, B1 to B2 and so on. Red: to the right, or tension; blue: to the left, or compression; one value in a hundred is beyond "
-                               "the colours. Rigid discs (DEM) have stress but no strain of their own. On paper: {:.1f} µs after the release.",
-                               shown * 1e6);
+  figure.caption = fmt::format(
+      "The discs of the left edge are displaced and let go (bar, free edges); the wave runs to the right, "
+      "over the probes: velocities are measured "
+      "from A1 to A2, B1 to B2 and so on. Red: to the right, or tension; blue: to the left, or compression; "
+      "one value in a hundred is beyond "
+      "the colours. Rigid discs (DEM) have stress but no strain of their own. On paper: {:.1f} µs after the "
+      "release.",
+      shown * 1e6);
   return figure;
 }
 
 reports::Figure energy_figure(const StripFilm& film) {
-  reports::Figure figure{.id = "energy", .title = "Energy over time, column release",
-                         .caption = "What is released as energy of the contacts is half kinetic at once, and stays so. Rigid discs and strains of the same step (implicit) "
-                                    "keep the sum; lagged strains (N, F) damp waves as short as the discs, which a released column mostly sends, and lose "
-                                    "most of it. Rigid discs store none themselves."};
+  reports::Figure figure{.id = "energy",
+                         .title = "Energy over time, column release",
+                         .caption =
+                             "What is released as energy of the contacts is half kinetic at once, and stays "
+                             "so. Rigid discs and strains of the same step (implicit) "
+                             "keep the sum; lagged strains (N, F) damp waves as short as the discs, which a "
+                             "released column mostly sends, and lose "
+                             "most of it. Rigid discs store none themselves."};
   for (const FilmedRun& run : film.runs) {
-    reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(run.model), film.stiffness_ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "energy", .unit = "J"}};
-    reports::Series sum{.name = "sum", .color = reports::Color::black}, kinetic{.name = "kinetic", .color = reports::Color::blue},
-        contact{.name = "contacts", .color = reports::Color::vermilion}, particle{.name = "discs", .color = reports::Color::green};
+    reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(run.model), film.stiffness_ratio),
+                       .x = {.label = "time", .unit = "s"},
+                       .y = {.label = "energy", .unit = "J"}};
+    reports::Series sum{.name = "sum", .color = reports::Color::black},
+        kinetic{.name = "kinetic", .color = reports::Color::blue},
+        contact{.name = "contacts", .color = reports::Color::vermilion},
+        particle{.name = "discs", .color = reports::Color::green};
     for (const ddem::EnergySample& e : run.energy) {
       for (reports::Series* series : {&sum, &kinetic, &contact, &particle}) series->x.push_back(e.time);
       sum.y.push_back(e.energies.invariant);

@@ -1,5 +1,6 @@
 #pragma once
-// The strip over time, for looking at: the column release (bar) in the first random packing, with every model of the campaign.
+// The strip over time, for looking at: the column release (bar) in the first random packing, with every model
+// of the campaign.
 
 #include <string>
 #include <vector>

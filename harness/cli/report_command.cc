@@ -21,7 +21,8 @@ int run(const Options& o) {
   try {
     write_report_files(output, report);
   } catch (const std::invalid_argument& e) {  // what cannot be drawn was not written by ddem
-    throw InputError(fmt::format("{}/results.h5: damaged: {}; run `ddem validate` again", o.folder, e.what()));
+    throw InputError(
+        fmt::format("{}/results.h5: damaged: {}; run `ddem validate` again", o.folder, e.what()));
   }
   fmt::print("report: {}/report.html\n", output);
   return static_cast<int>(ExitCode::done);
@@ -31,9 +32,12 @@ int run(const Options& o) {
 
 void add_report_command(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("report", "Draw the report of a finished campaign again, from its results.h5 alone");
-  command->footer("Example: ddem report ddem-report -o redrawn\n"
-                  "Writes report.html, figures/*.svg and figures/*.csv. Runs nothing, and changes nothing unless results.h5 is whole.");
+  CLI::App* command =
+      app.add_subcommand("report", "Draw the report of a finished campaign again, from its results.h5 alone");
+  command->footer(
+      "Example: ddem report ddem-report -o redrawn\n"
+      "Writes report.html, figures/*.svg and figures/*.csv. Runs nothing, and changes nothing unless "
+      "results.h5 is whole.");
   command->add_option("DIR", o->folder, "folder that `ddem validate` wrote")->required();
   command->add_option("-o,--output", o->output, "another folder for what is drawn (default: DIR)");
   command->callback([o, &action] { action = [o] { return run(*o); }; });

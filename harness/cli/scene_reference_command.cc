@@ -8,7 +8,8 @@
 namespace ddem::harness {
 
 void add_scene_reference_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("scene-reference", "Every table and key of a scene file, with values and defaults, as Markdown");
+  CLI::App* command = app.add_subcommand(
+      "scene-reference", "Every table and key of a scene file, with values and defaults, as Markdown");
   command->callback([&action] {
     action = [] {
       fmt::print("{}", scene_reference());

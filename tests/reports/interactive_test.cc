@@ -1,4 +1,5 @@
-// What the page's script is given: the same data, axes and colours as the SVG, in markup that nothing ends early.
+// What the page's script is given: the same data, axes and colours as the SVG, in markup that nothing ends
+// early.
 #include "reports/interactive.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-const Figure& figure(const Report& report, std::size_t i) { return report.sections[0].figures[i]; }
+const Figure& figure(const Report& report, std::size_t i) {
+  return report.sections[0].figures[i];
+}
 
 TEST(Interactive, SeriesHaveTheirNumbersAndTheColoursOfTheSvg) {
   const Report report = test::full_report();
@@ -51,7 +54,8 @@ TEST(Interactive, LongSignalsAreThinnedAndKeepTheirCrest) {
   EXPECT_LE(y.size(), 400u);
   EXPECT_GE(y.size(), 200u);
   const auto& all = std::get<Plot>(figure(report, 1).panels[0]).series[0].y;
-  EXPECT_NEAR(*std::max_element(y.begin(), y.end()), *std::max_element(all.begin(), all.end()), 1e-14);  // six digits of 1e-8
+  EXPECT_NEAR(*std::max_element(y.begin(), y.end()), *std::max_element(all.begin(), all.end()),
+              1e-14);  // six digits of 1e-8
   EXPECT_EQ(live["figure"]["panels"][0]["xmarks"]["exponent"], -6);
 }
 
@@ -67,7 +71,8 @@ TEST(Interactive, FieldsOverTimeAreLevelsOfTheirLimits) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const auto byte = [&](std::size_t i) {
     unsigned group = 0;
-    for (std::size_t k = 0; k < 4; ++k) group = group << 6 | static_cast<unsigned>(digits.find(bytes[4 * (i / 3) + k]));
+    for (std::size_t k = 0; k < 4; ++k)
+      group = group << 6 | static_cast<unsigned>(digits.find(bytes[4 * (i / 3) + k]));
     return group >> (16 - 8 * (i % 3)) & 255u;
   };
   EXPECT_EQ(byte(0), static_cast<unsigned>(std::lround(127.0 * (1.0 + std::sin(900.0 * 2.5e-4)))));
@@ -85,7 +90,8 @@ TEST(Interactive, PageIsWellFormedWithAnyLibraryAndKeepsItsDrawings) {
   EXPECT_EQ(document.select_nodes("//figure[script]/div[@class='drawing still']/svg").size(), 4u);
   EXPECT_EQ(document.select_nodes("//figure[not(script)]/div/svg").size(), 1u);  // a strip at rest
   EXPECT_EQ(document.select_nodes("//*[@src]").size(), 0u);
-  for (const auto& script : document.select_nodes("//script[@type='application/json']")) EXPECT_TRUE(json::accept(script.node().text().get()));
+  for (const auto& script : document.select_nodes("//script[@type='application/json']"))
+    EXPECT_TRUE(json::accept(script.node().text().get()));
 }
 
 TEST(Interactive, LibraryThatEndsItsScriptIsRefused) {

@@ -1,4 +1,5 @@
-// A report kept as JSON and arrays is drawn to the same bytes; what is not a report is refused by the name of what is wrong.
+// A report kept as JSON and arrays is drawn to the same bytes; what is not a report is refused by the name of
+// what is wrong.
 #include "reports/report_json.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,8 @@ Kept kept(const Report& report) {
 
 Report restored(const Kept& k) {
   // Through text, as a file is.
-  return report_from_json(Json::parse(k.document.dump()), [&](const Json& place) { return k.arrays.at(place.get<std::size_t>()); });
+  return report_from_json(Json::parse(k.document.dump()),
+                          [&](const Json& place) { return k.arrays.at(place.get<std::size_t>()); });
 }
 
 TEST(ReportJson, IsDrawnToTheSameBytes) {
@@ -38,7 +40,8 @@ TEST(ReportJson, IsDrawnToTheSameBytes) {
   EXPECT_EQ(render_html(same, {.plotly = "var Plotly;"}), render_html(report, {.plotly = "var Plotly;"}));
   const auto &before = report.sections[0].figures, &after = same.sections[0].figures;
   ASSERT_EQ(after.size(), before.size());
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(render_svg(after[i]), render_svg(before[i])) << before[i].id;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_EQ(render_svg(after[i]), render_svg(before[i])) << before[i].id;
 }
 
 TEST(ReportJson, KeepsNumbersExactlyAndWhatIsNotOne) {
@@ -64,10 +67,14 @@ TEST(ReportJson, WhatIsNotAReportIsRefused) {
   };
   EXPECT_NE(refused(Json::array()), "");
   EXPECT_NE(refused({{"title", 3}}).find("title"), std::string::npos);
-  EXPECT_NE(refused({{"verdicts", Json::array({{{"state", "splendid"}}})}}).find("splendid"), std::string::npos);
+  EXPECT_NE(refused({{"verdicts", Json::array({{{"state", "splendid"}}})}}).find("splendid"),
+            std::string::npos);
   EXPECT_NE(refused({{"sections", {{"heading", "not a list"}}}}).find("sections"), std::string::npos);
   const Json panel = {{"type", "hologram"}};
-  EXPECT_NE(refused({{"sections", Json::array({{{"figures", Json::array({{{"panels", Json::array({panel})}}})}}})}}).find("hologram"), std::string::npos);
+  EXPECT_NE(
+      refused({{"sections", Json::array({{{"figures", Json::array({{{"panels", Json::array({panel})}}})}}})}})
+          .find("hologram"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -21,12 +21,19 @@ validator = validator_class(schema)
 
 with tempfile.TemporaryDirectory() as folder:
     campaign = pathlib.Path(folder, "small.toml")
-    campaign.write_text('[strip]\nseeds = [1, 2]\nmodels = ["dem"]\nstiffness_ratios = [0.3]\ndiscs = 300\nlength = "7.3 mm"\npulse_length = "4 mm"\n')
+    campaign.write_text(
+        '[strip]\nseeds = [1, 2]\nmodels = ["dem"]\nstiffness_ratios = [0.3]\n'
+        'discs = 300\nlength = "7.3 mm"\npulse_length = "4 mm"\n'
+    )
     case = "static/hexagonal/dem/kt0.30"
     subprocess.run([program, "validate", str(campaign), "-o", folder, "--only", case], check=True, capture_output=True)
     summary = json.loads(pathlib.Path(folder, "summary.json").read_text())
     validator.validate(summary)
     assert [c["id"] for c in summary["cases"]] == [case]
+
+def with_actual(number):
+    return [{"metric": "m", "actual": number, "unit": "", "derivation": "", "state": "PASS"}]
+
 
 faults = {
     "no version": lambda s: s.pop("schema_version"),
@@ -34,8 +41,8 @@ faults = {
     "no cases": lambda s: s.pop("cases"),
     "a state that is none": lambda s: s["cases"][0].update(state="splendid"),
     "a case without a name": lambda s: s["cases"][0].pop("id"),
-    "a number as text": lambda s: s["cases"][0].update(criteria=[{"metric": "m", "actual": "1.0", "unit": "", "derivation": "", "state": "PASS"}]),
-    "a bare null": lambda s: s["cases"][0].update(criteria=[{"metric": "m", "actual": None, "unit": "", "derivation": "", "state": "PASS"}]),
+    "a number as text": lambda s: s["cases"][0].update(criteria=with_actual("1.0")),
+    "a bare null": lambda s: s["cases"][0].update(criteria=with_actual(None)),
 }
 for name, spoil in faults.items():
     spoilt = copy.deepcopy(summary)

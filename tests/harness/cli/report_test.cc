@@ -1,4 +1,5 @@
-// ddem report: what validate wrote is drawn again from results.h5 alone, to the byte; anything else is refused and changes nothing.
+// ddem report: what validate wrote is drawn again from results.h5 alone, to the byte; anything else is
+// refused and changes nothing.
 
 #include "harness/io/hdf5.h"
 #include "tests/harness/cli/program.h"
@@ -12,8 +13,11 @@ class ReportCommand : public Cli {
  protected:
   /// A small campaign's folder: one case, no studies.
   void validate() const {
-    write("small.toml", "[strip]\nseeds = [1, 2]\nmodels = [\"dem\"]\nstiffness_ratios = [0.3]\ndiscs = 300\nlength = \"7.3 mm\"\npulse_length = \"4 mm\"\n");
-    const auto run = ddem({"validate", path("small.toml"), "-o", path("night"), "--only", "static/hexagonal/dem/kt0.30"});
+    write("small.toml",
+          "[strip]\nseeds = [1, 2]\nmodels = [\"dem\"]\nstiffness_ratios = [0.3]\ndiscs = 300\nlength = "
+          "\"7.3 mm\"\npulse_length = \"4 mm\"\n");
+    const auto run =
+        ddem({"validate", path("small.toml"), "-o", path("night"), "--only", "static/hexagonal/dem/kt0.30"});
     ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   }
 
@@ -83,15 +87,20 @@ TEST_F(ReportCommand, RefusesOldAndDamagedResults) {
   expect_report_refused("999");
   stored(1, R"({"title": "x", "sections")");
   expect_report_refused("damaged");
-  stored(1, R"({"sections": [{"figures": [{"id": "f", "panels": [{"type": "plot", "series": [{"x": "0000"}]}]}]}]})");
+  stored(
+      1,
+      R"({"sections": [{"figures": [{"id": "f", "panels": [{"type": "plot", "series": [{"x": "0000"}]}]}]}]})");
   expect_report_refused("0000");
-  stored(1, R"({"sections": [{"figures": [{"id": "f", "panels": [{"type": "plot", "x": {"limits": {"lower": 1, "upper": 0}}}]}]}]})");
+  stored(
+      1,
+      R"({"sections": [{"figures": [{"id": "f", "panels": [{"type": "plot", "x": {"limits": {"lower": 1, "upper": 0}}}]}]}]})");
   expect_report_refused("limits");
 }
 
 TEST_F(ReportCommand, RefusesResultsThatAreCutShort) {
   validate();
-  std::filesystem::resize_file(in_folder("night/results.h5"), std::filesystem::file_size(in_folder("night/results.h5")) / 2);
+  std::filesystem::resize_file(in_folder("night/results.h5"),
+                               std::filesystem::file_size(in_folder("night/results.h5")) / 2);
   expect_report_refused("");
 }
 

@@ -1,4 +1,5 @@
-// FILE.xdmf beside FILE.h5: what it names is in the file, and is what /fields has; one that cannot be named is refused at once.
+// FILE.xdmf beside FILE.h5: what it names is in the file, and is what /fields has; one that cannot be named
+// is refused at once.
 
 #include <pugixml.hpp>
 
@@ -45,7 +46,8 @@ TEST_F(Xdmf, PointsShowTheFields) {
   const Hdf5File file = Hdf5File::open(in_folder("new.h5"));
   const Hdf5Group fields = file.root().group("fields"), frame = file.root().group("points").group("0001");
   const auto u = frame.read_doubles("displacement"), s = frame.read_doubles("stress_xy");
-  const auto ux = fields.read_doubles("displacement_x").values, uy = fields.read_doubles("displacement_y").values, sxy = fields.read_doubles("stress_xy").values;
+  const auto ux = fields.read_doubles("displacement_x").values,
+             uy = fields.read_doubles("displacement_y").values, sxy = fields.read_doubles("stress_xy").values;
   ASSERT_EQ(u.shape, (std::vector<std::size_t>{240, 3}));
   ASSERT_EQ(s.shape, std::vector<std::size_t>{240});
   for (std::size_t i = 0; i < 240; ++i) {
@@ -72,7 +74,8 @@ TEST_F(Xdmf, RefusesNamesThatItCannotHold) {
 
 TEST_F(Xdmf, OverwritesNoOtherOutput) {
   write("scene.toml", small_scene());
-  const auto run = ddem({"run", path("scene.toml"), "-o", path("a.h5"), "--signals", path("a.xdmf"), "--snapshots", "2"});
+  const auto run =
+      ddem({"run", path("scene.toml"), "-o", path("a.h5"), "--signals", path("a.xdmf"), "--snapshots", "2"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.standard_error, HasSubstr("a.xdmf"));
 }

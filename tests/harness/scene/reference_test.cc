@@ -16,7 +16,8 @@ namespace {
 TEST(SceneReference, ThePageOfTheGuideIsUpToDate) {
   std::ifstream page(DDEM_GUIDE "/scene.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
-  EXPECT_TRUE(text == scene_reference()) << "keys have changed: ddem scene-reference > harness/guide/scene.md";
+  EXPECT_TRUE(text == scene_reference())
+      << "keys have changed: ddem scene-reference > harness/guide/scene.md";
 }
 
 TEST(SceneReference, HasEveryKeyInItsSection) {

@@ -22,24 +22,37 @@ const watch = (page, what) => {
 
 const drawAll = async (page, what) => {
   const figures = page.locator('figure:has(script.figure-data)');
-  for (let i = 0; i < await figures.count(); ++i) {
+  for (let i = 0; i < (await figures.count()); ++i) {
     const figure = figures.nth(i);
     await figure.scrollIntoViewIfNeeded();
-    await page.waitForFunction((f) => f.dataset.drawn === 'true', await figure.elementHandle(), { timeout: 30000 })
+    await page
+      .waitForFunction((f) => f.dataset.drawn === 'true', await figure.elementHandle(), { timeout: 30000 })
       .catch(() => check(false, `${what}: a figure is not drawn: ${i}`));
   }
-  const found = await page.evaluate(() => [...document.querySelectorAll('figure:has(script.figure-data)')].map((f) => ({
-    id: f.id,
-    panels: JSON.parse(f.querySelector('script.figure-data').textContent).figure.panels.length,
-    drawn: f.querySelectorAll('.panel').length,
-    empty: [...f.querySelectorAll('.panel.plot')].filter((p) => !p.querySelector('.scatterlayer .trace path, .heatmaplayer image')).length,
-    blank: [...f.querySelectorAll('.panel.strip canvas')].filter((c) => !c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((v) => v > 0)).length,
-    notANumber: /NaN|undefined/.test(f.querySelector('.live').innerHTML),
-    still: getComputedStyle(f.querySelector('.drawing')).display,
-  })));
+  const found = await page.evaluate(() =>
+    [...document.querySelectorAll('figure:has(script.figure-data)')].map((f) => ({
+      id: f.id,
+      panels: JSON.parse(f.querySelector('script.figure-data').textContent).figure.panels.length,
+      drawn: f.querySelectorAll('.panel').length,
+      empty: [...f.querySelectorAll('.panel.plot')].filter((p) => !p.querySelector('.scatterlayer .trace path, .heatmaplayer image'))
+        .length,
+      blank: [...f.querySelectorAll('.panel.strip canvas')].filter(
+        (c) =>
+          !c
+            .getContext('2d')
+            .getImageData(0, 0, c.width, c.height)
+            .data.some((v) => v > 0),
+      ).length,
+      notANumber: /NaN|undefined/.test(f.querySelector('.live').innerHTML),
+      still: getComputedStyle(f.querySelector('.drawing')).display,
+    })),
+  );
   check(found.length > 0, `${what}: no interactive figure`);
   for (const f of found) {
-    check(f.drawn === f.panels && f.empty === 0 && f.blank === 0, `${what}: ${f.id} has ${f.drawn} of ${f.panels} panels, ${f.empty + f.blank} of them blank`);
+    check(
+      f.drawn === f.panels && f.empty === 0 && f.blank === 0,
+      `${what}: ${f.id} has ${f.drawn} of ${f.panels} panels, ${f.empty + f.blank} of them blank`,
+    );
     check(!f.notANumber, `${what}: ${f.id} shows what is not a number`);
     check(f.still === 'none', `${what}: ${f.id} shows its SVG, too`);
   }
@@ -52,13 +65,16 @@ const checkWidth = async (page, what) => {
 };
 
 const checkFilters = async (page) => {
-  const visible = () => page.evaluate(() => [...document.querySelectorAll('.case')].filter((c) => !c.hidden && !c.closest('.group').hidden).length);
+  const visible = () =>
+    page.evaluate(() => [...document.querySelectorAll('.case')].filter((c) => !c.hidden && !c.closest('.group').hidden).length);
   const total = await page.locator('.case').count();
-  check(await visible() === total, 'filter: not all cases are there at first');
-  const states = await page.evaluate(() => [...document.querySelectorAll('.group')].map((g) => [g.dataset.state, g.querySelectorAll('.case').length]));
+  check((await visible()) === total, 'filter: not all cases are there at first');
+  const states = await page.evaluate(() =>
+    [...document.querySelectorAll('.group')].map((g) => [g.dataset.state, g.querySelectorAll('.case').length]),
+  );
   for (const [state, count] of states) {
     await page.locator(`.filter button[data-show="${state}"]`).click();
-    check(await visible() === count, `filter: ${state} shows ${await visible()} of ${count}`);
+    check((await visible()) === count, `filter: ${state} shows ${await visible()} of ${count}`);
   }
   await page.locator('.filter button[data-show=""]').click();
   for (const select of await page.locator('.filter select').all()) {
@@ -66,13 +82,13 @@ const checkFilters = async (page) => {
     const value = await select.locator('option').nth(1).getAttribute('value');
     await select.selectOption(value);
     const expected = await page.locator(`.case[data-${name}="${value}"]`).count();
-    check(expected > 0 && await visible() === expected, `filter: ${name} = ${value} shows ${await visible()} of ${expected}`);
+    check(expected > 0 && (await visible()) === expected, `filter: ${name} = ${value} shows ${await visible()} of ${expected}`);
     await select.selectOption('');
   }
   await page.locator('.filter input').fill('no such case');
-  check(await visible() === 0, 'filter: words that no case has show cases');
+  check((await visible()) === 0, 'filter: words that no case has show cases');
   await page.locator('.filter input').fill('');
-  check(await visible() === total, 'filter: not all cases come back');
+  check((await visible()) === total, 'filter: not all cases come back');
 };
 
 const checkZoomAndLegend = async (page) => {
@@ -95,38 +111,45 @@ const checkZoomAndLegend = async (page) => {
   check(Math.abs(back[0] - before[0]) + Math.abs(back[1] - before[1]) < 1e-9, 'zoom: a double click does not lead back');
 
   const legend = page.locator('figure:has(.legend button)').first();
-  const shown = () => legend.evaluate((f) => [...f.querySelectorAll('.canvas')].flatMap((c) => c.data.map((t) => t.visible)).filter((v) => v === false).length);
+  const shown = () =>
+    legend.evaluate(
+      (f) => [...f.querySelectorAll('.canvas')].flatMap((c) => c.data.map((t) => t.visible)).filter((v) => v === false).length,
+    );
   await legend.locator('.legend button').first().click();
-  check(await shown() > 0, 'legend: a click hides nothing');
+  check((await shown()) > 0, 'legend: a click hides nothing');
   await legend.locator('.legend button').first().click();
-  check(await shown() === 0, 'legend: a second click does not bring it back');
+  check((await shown()) === 0, 'legend: a second click does not bring it back');
 };
 
 const checkSlider = async (page) => {
   const film = page.locator('figure:has(input[type=range])').first();
-  if (await film.count() === 0) return check(false, 'slider: none');
+  if ((await film.count()) === 0) return check(false, 'slider: none');
   await film.scrollIntoViewIfNeeded();
   const picture = () => film.evaluate((f) => [...f.querySelectorAll('canvas')].map((c) => c.toDataURL()).join());
   const time = () => film.locator('output').textContent();
   const [first, at] = [await picture(), await time()];
   await film.locator('input[type=range]').focus();
   for (let i = 0; i < 3; ++i) await page.keyboard.press('ArrowRight');
-  check(await picture() !== first && await time() !== at, 'slider: three steps on show the same picture');
+  check((await picture()) !== first && (await time()) !== at, 'slider: three steps on show the same picture');
   const before = await picture();
   await film.locator('select').selectOption('1');
-  check(await picture() !== before, 'slider: another field has the same picture');
+  check((await picture()) !== before, 'slider: another field has the same picture');
   await film.locator('select').selectOption('0');
   await film.getByRole('button', { name: 'Play' }).click();
   const playing = await time();
   await page.waitForTimeout(700);
-  check(await time() !== playing, 'slider: it does not play');
+  check((await time()) !== playing, 'slider: it does not play');
   await film.getByRole('button', { name: 'Pause' }).click();
 };
 
-// The file that the page makes has the numbers (six digits: half a unit of the last is up to 5e-6 of the number) of the file that the program wrote.
+// The file that the page makes has the numbers of the file that the program wrote, in six digits: half a unit of the last is up
+// to 5e-6 of the number.
 const checkCsv = async (page, ids) => {
   const parse = (text) => {
-    const [header, ...rows] = text.trim().split('\n').map((line) => line.match(/("([^"]|"")*"|[^,]*)(,|$)/g).map((cell) => cell.replace(/,$/, '')));
+    const [header, ...rows] = text
+      .trim()
+      .split('\n')
+      .map((line) => line.match(/("([^"]|"")*"|[^,]*)(,|$)/g).map((cell) => cell.replace(/,$/, '')));
     return rows.map((row) => Object.fromEntries(header.filter(Boolean).map((key, i) => [key, row[i] ?? ''])));
   };
   for (const id of ids) {
@@ -149,14 +172,23 @@ const checkAccessibility = async (page, what) => {
   await page.addScriptTag({ content: fs.readFileSync(path.join(axe, 'axe.min.js'), 'utf8') });
   const { violations } = await page.evaluate(() => axe.run(document, { resultTypes: ['violations'] }));
   for (const v of violations.filter((w) => ['serious', 'critical'].includes(w.impact)))
-    check(false, `${what}: ${v.impact}: ${v.help}: ${v.nodes.length} places, first ${v.nodes[0].html.slice(0, 160)} (${v.nodes[0].failureSummary})`);
+    check(
+      false,
+      `${what}: ${v.impact}: ${v.help}: ${v.nodes.length} places, first ${v.nodes[0].html.slice(0, 160)} (${v.nodes[0].failureSummary})`,
+    );
   ++checks;
 };
 
 const checkPaper = async (page, ids) => {
   await page.emulateMedia({ media: 'print' });
-  const seen = await page.evaluate(() => [...document.querySelectorAll('figure:has(script.figure-data)')].filter((f) =>
-    getComputedStyle(f.querySelector('.live')).display === 'none' && getComputedStyle(f.querySelector('.drawing')).display !== 'none').length);
+  const seen = await page.evaluate(
+    () =>
+      [...document.querySelectorAll('figure:has(script.figure-data)')].filter(
+        (f) =>
+          getComputedStyle(f.querySelector('.live')).display === 'none' &&
+          getComputedStyle(f.querySelector('.drawing')).display !== 'none',
+      ).length,
+  );
   check(seen === ids.length, `paper: ${seen} of ${ids.length} figures are SVG`);
   const pdf = await page.pdf({ path: path.join(output, 'report.pdf'), format: 'A4' });
   check(pdf.subarray(0, 5).toString() === '%PDF-' && pdf.length > 50000, `paper: the PDF has ${pdf.length} bytes`);
@@ -167,8 +199,12 @@ const withoutScripts = async (browser) => {
   const page = await (await browser.newContext({ javaScriptEnabled: false })).newPage();
   watch(page, 'without scripts');
   await page.goto(`file://${report}`);
-  const figures = page.locator('figure'), drawings = page.locator('figure .drawing svg:visible');
-  check(await figures.count() > 0 && await drawings.count() === await figures.count(), `without scripts: ${await drawings.count()} of ${await figures.count()} figures are drawn`);
+  const figures = page.locator('figure'),
+    drawings = page.locator('figure .drawing svg:visible');
+  check(
+    (await figures.count()) > 0 && (await drawings.count()) === (await figures.count()),
+    `without scripts: ${await drawings.count()} of ${await figures.count()} figures are drawn`,
+  );
   await page.context().close();
 };
 

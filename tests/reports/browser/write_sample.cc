@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   const Report report = test::full_report();
   std::filesystem::create_directories(folder / "figures");
   std::ofstream(folder / "report.html") << render_html(report, {.plotly = plotly});
-  for (const Figure& f : report.sections[0].figures) std::ofstream(folder / "figures" / (f.id + ".csv")) << figure_csv(f, kAllRows).text;
+  for (const Figure& f : report.sections[0].figures)
+    std::ofstream(folder / "figures" / (f.id + ".csv")) << figure_csv(f, kAllRows).text;
   return plotly.empty() ? 1 : 0;
 }
