@@ -21,7 +21,8 @@ void fill_up(bool stiffness, bool lengths, SlicedBonds& s) {
   const std::size_t half_bonds = static_cast<std::size_t>(s.row_begin.back()) * kLanes;
   s.neighbour.resize(half_bonds);
   for (int slice = 0; slice < s.slices; ++slice) {
-    for (std::int32_t k = s.row_begin[slice] * kLanes; k < s.row_begin[slice + 1] * kLanes; ++k) s.neighbour[k] = slice * kLanes + k % kLanes;
+    for (std::int32_t k = s.row_begin[slice] * kLanes; k < s.row_begin[slice + 1] * kLanes; ++k)
+      s.neighbour[k] = slice * kLanes + k % kLanes;
   }
   s.nx.assign(half_bonds, 1.0);
   s.ny.assign(half_bonds, 0.0);
@@ -32,7 +33,8 @@ void fill_up(bool stiffness, bool lengths, SlicedBonds& s) {
 
 }  // namespace
 
-SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths) {
+SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position,
+                        const std::vector<double>& stiffness, bool lengths) {
   SlicedBonds s;
   s.slices = (static_cast<int>(position.size()) + kLanes - 1) / kLanes;
   std::vector<std::int32_t> bonds_at(static_cast<std::size_t>(s.slices) * kLanes, 0);
@@ -41,7 +43,8 @@ SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position, const 
   fill_up(!stiffness.empty(), lengths, s);
   std::fill(bonds_at.begin(), bonds_at.end(), 0);
   const auto put = [&](std::size_t c, int at, int other, double sign) {
-    const std::size_t row = static_cast<std::size_t>(s.row_begin[at / kLanes] + bonds_at[at]++), k = row * kLanes + static_cast<std::size_t>(at % kLanes);
+    const std::size_t row = static_cast<std::size_t>(s.row_begin[at / kLanes] + bonds_at[at]++),
+                      k = row * kLanes + static_cast<std::size_t>(at % kLanes);
     s.neighbour[k] = other;
     s.nx[k] = sign * b.nx[c], s.ny[k] = sign * b.ny[c];
     s.stretch[k] = b.stretch[c];

@@ -83,7 +83,10 @@ void Stepper::set_parameters(const Assembly& a, const SimulationInput& input) {
     const int p = position_[d];
     kick_x_[p] = held(input.held.x, d) ? 0.0 : dt / a.mass[d];
     kick_y_[p] = held(input.held.y, d) ? 0.0 : dt / a.mass[d];
-    if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt * radius(static_cast<int>(d)) * radius(static_cast<int>(d)) / a.inertia[d];
+    if (rotation_)
+      kick_theta_[p] = held(input.held.theta, d)
+                           ? 0.0
+                           : dt * radius(static_cast<int>(d)) * radius(static_cast<int>(d)) / a.inertia[d];
   }
   if (drive_) {
     auto& kick = drive_->direction == Direction::x ? kick_x_ : kick_y_;
@@ -168,7 +171,8 @@ void Stepper::find_fronts() {
   std::vector<char> moving(padded_, 0);
   for (std::size_t p = 0; p < padded_; ++p) {
     const double* u = motion_.data() + kQuad * p;
-    moving[p] = u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0 || vx_[p] != 0.0 || vy_[p] != 0.0 || (rotation_ && omega_[p] != 0.0);
+    moving[p] = u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0 || vx_[p] != 0.0 || vy_[p] != 0.0 ||
+                (rotation_ && omega_[p] != 0.0);
   }
   if (drive_) {
     for (const int d : drive_->discs) moving[position_[d]] = 1;
@@ -286,7 +290,8 @@ void Stepper::bind() {
   if (gradients_) gradients_->bind(d);
   d.motion = motion_.data(), d.motion_next = motion_next_.data();
   d.vx = vx_.data(), d.vy = vy_.data(), d.omega = omega_.data();
-  d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data(), d.kick_theta = kick_theta_.data();
+  d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data(),
+  d.kick_theta = kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
   d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();

@@ -68,8 +68,9 @@ long choose_steps(const Scene& scene, const DemRun& run, double step) {
   }
   const double steps = std::ceil(seconds / step);
   if (!(steps <= static_cast<double>(kMostSteps))) {
-    throw InputError(scene_problem(scene, "time.end", fmt::format("{:.6g} s take {:.3g} steps of {:.3g} s", seconds, steps, step),
-                                   fmt::format("at most {} steps are allowed", kMostSteps)));
+    throw InputError(scene_problem(
+        scene, "time.end", fmt::format("{:.6g} s take {:.3g} steps of {:.3g} s", seconds, steps, step),
+        fmt::format("at most {} steps are allowed", kMostSteps)));
   }
   return static_cast<long>(steps);
 }
@@ -129,19 +130,27 @@ void warn_of_instability(const Scene& scene, DemRun& run) {
 /// `in` as for verlet with the step from one sample to the next; its time step is that of the march.
 SimulationResult run_exact(const Scene& scene, const DemRun& run, const SimulationInput& in) {
   if (in.snapshots > 0) {
-    throw InputError(scene_problem(scene, "time.integrator", "snapshots of all discs are not exact in time: the probes' signals alone are",
-                                   "leave --snapshots out, or use integrator = \"verlet\""));
+    throw InputError(
+        scene_problem(scene, "time.integrator",
+                      "snapshots of all discs are not exact in time: the probes' signals alone are",
+                      "leave --snapshots out, or use integrator = \"verlet\""));
   }
   const Sampling sampling{run.sample_interval, static_cast<std::size_t>(in.steps / in.sample_every + 1)};
   if (const double work = filter_work(in, sampling); !(work <= kMostFilterWork)) {
-    throw InputError(scene_problem(scene, "time.integrator", fmt::format("{:.3g} exact samples take {:.3g} multiplications", static_cast<double>(sampling.samples), work),
-                                   fmt::format("raise time.sample_every or end earlier (at most {:.3g}), or use integrator = \"verlet\"", kMostFilterWork)));
+    throw InputError(scene_problem(
+        scene, "time.integrator",
+        fmt::format("{:.3g} exact samples take {:.3g} multiplications", static_cast<double>(sampling.samples),
+                    work),
+        fmt::format("raise time.sample_every or end earlier (at most {:.3g}), or use integrator = \"verlet\"",
+                    kMostFilterWork)));
   }
   SimulationResult result = simulate_exact(run.assembly, in, sampling);
   if (const auto& c = result.new_contacts) {
-    throw InputError(scene_problem(scene, "time.integrator",
-                                   fmt::format("discs that are not bonded come to touch, first at {:.6g} s: the motion is not linear", static_cast<double>(c->first_step) * run.time_step),
-                                   "use integrator = \"verlet\", lower the amplitude, or set contact.new_contacts = \"off\""));
+    throw InputError(scene_problem(
+        scene, "time.integrator",
+        fmt::format("discs that are not bonded come to touch, first at {:.6g} s: the motion is not linear",
+                    static_cast<double>(c->first_step) * run.time_step),
+        "use integrator = \"verlet\", lower the amplitude, or set contact.new_contacts = \"off\""));
   }
   return result;
 }
@@ -210,8 +219,8 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
                                        c->critical_time_step, run.time_step, c->critical_time_step / run.time_step));
   }
   if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {
-    run.measurement = measure_wave(wave_component(run.result.signals, *run.wave),
-                                   run.sample_interval, run.layout, run.context);
+    run.measurement = measure_wave(wave_component(run.result.signals, *run.wave), run.sample_interval,
+                                   run.layout, run.context);
   }
   return run;
 }

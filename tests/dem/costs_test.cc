@@ -1,6 +1,6 @@
-// What a run costs, in numbers that a busy machine does not change: instructions (counted by valgrind, which knows AVX2 but
-// not AVX-512) and bytes of the solver's arrays. Bounds of instructions are what g++ 12 makes of the kernels, and a tenth: a
-// slower kernel is to be noticed, and a faster one to lower its bound.
+// What a run costs, in numbers that a busy machine does not change: instructions (counted by valgrind, which
+// knows AVX2 but not AVX-512) and bytes of the solver's arrays. Bounds of instructions are what g++ 12 makes
+// of the kernels, and a tenth: a slower kernel is to be noticed, and a faster one to lower its bound.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -37,12 +37,24 @@ std::size_t padded(std::size_t size, std::align_val_t alignment) {
 
 }  // namespace
 
-void* operator new(std::size_t size) { return counted(std::malloc(size == 0 ? 1 : size)); }
-void* operator new(std::size_t size, std::align_val_t a) { return counted(std::aligned_alloc(static_cast<std::size_t>(a), padded(size, a))); }
-void operator delete(void* p) noexcept { release(p); }
-void operator delete(void* p, std::size_t) noexcept { release(p); }
-void operator delete(void* p, std::align_val_t) noexcept { release(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
+void* operator new(std::size_t size) {
+  return counted(std::malloc(size == 0 ? 1 : size));
+}
+void* operator new(std::size_t size, std::align_val_t a) {
+  return counted(std::aligned_alloc(static_cast<std::size_t>(a), padded(size, a)));
+}
+void operator delete(void* p) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  release(p);
+}
 
 namespace ddem {
 namespace {
@@ -63,10 +75,11 @@ SimulationInput shear_input(const Assembly& a) {
 }
 
 TEST(SolverArrays, BytesADisc) {
-  const Assembly a = test::hexagonal_assembly({.columns = 100, .rows = 100, .radius = 1e-4, .periodic_x = true, .periodic_y = true});
+  const Assembly a = test::hexagonal_assembly(
+      {.columns = 100, .rows = 100, .radius = 1e-4, .periodic_x = true, .periodic_y = true});
   SimulationInput in = shear_input(a);
-  // Six half-bonds of 28 bytes (normal, stretch, neighbour), two states of motion of 32, velocities and kicks of 40, a place
-  // in the order of 4: 276, and 1 % for slices and the object itself.
+  // Six half-bonds of 28 bytes (normal, stretch, neighbour), two states of motion of 32, velocities and kicks
+  // of 40, a place in the order of 4: 276, and 1 % for slices and the object itself.
   EXPECT_LT(bytes_per_disc(a, in), 1.01 * 276.0);
   in.contact.contact_modulus = test::kNormalStiffness;
   EXPECT_LT(bytes_per_disc(a, in), 330.0);
@@ -83,7 +96,8 @@ TEST(SolverArrays, AreNotAllocatedInSteps) {
     in.new_contacts = ContactWatch::bound;
     Stepper stepper(a, in, best_instruction_set());
     const long before = allocations;
-    for (long done = 0; done < 50; done += stepper.finish_stage() ? 1 : 0) stepper.advance(0, stepper.slices());
+    for (long done = 0; done < 50; done += stepper.finish_stage() ? 1 : 0)
+      stepper.advance(0, stepper.slices());
     EXPECT_EQ(allocations - before, 0) << static_cast<int>(scheme);
   }
 }
@@ -113,7 +127,8 @@ TEST_P(Instructions, OfAFixedLoad) {
   const std::string valgrind = DDEM_VALGRIND;
   if (valgrind.empty()) GTEST_SKIP() << "valgrind is not installed: instructions are not counted";
   if (best_instruction_set() == InstructionSet::baseline) GTEST_SKIP() << "the bounds are those of AVX2";
-  const std::string counter = valgrind + " --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=" + GetParam().function;
+  const std::string counter =
+      valgrind + " --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=" + GetParam().function;
   const std::string text = output_of(counter + " " + DDEM_KERNEL_LOAD + " " + GetParam().law + " 2>&1");
   const std::string marker = "Collected : ";
   const std::size_t at = text.find(marker);
@@ -131,11 +146,12 @@ TEST_P(Instructions, OfAFixedLoad) {
   EXPECT_GT(measured, 0.7 * GetParam().bound);
 }
 
-INSTANTIATE_TEST_SUITE_P(Loads, Instructions,
-                         testing::Values(Load{"dem", "counted_steps", 38.5}, Load{"dem_shear", "counted_steps", 57.7},
-                                         Load{"dem_shear_per_bond", "counted_steps", 59.6}, Load{"lagged", "counted_steps", 104.0},
-                                         Load{"implicit", "counted_steps", 263.0}, Load{"wave", "counted_wave", 21.3}),
-                         [](const auto& p) { return std::string(p.param.law); });
+INSTANTIATE_TEST_SUITE_P(
+    Loads, Instructions,
+    testing::Values(Load{"dem", "counted_steps", 38.5}, Load{"dem_shear", "counted_steps", 57.7},
+                    Load{"dem_shear_per_bond", "counted_steps", 59.6}, Load{"lagged", "counted_steps", 104.0},
+                    Load{"implicit", "counted_steps", 263.0}, Load{"wave", "counted_wave", 21.3}),
+    [](const auto& p) { return std::string(p.param.law); });
 
 }  // namespace
 }  // namespace ddem

@@ -1,4 +1,5 @@
-// The paper's wave run to the last peak against dense modal analysis of the whole strip: 2046 degrees of freedom.
+// The paper's wave run to the last peak against dense modal analysis of the whole strip: 2046 degrees of
+// freedom.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ namespace {
 
 TEST(ExactStrip, ReleasedColumnIsThatOfTheDenseModes) {
   test::WaveStrip strip(0.25);
-  strip.sampling = {4.17 * strip.critical_time_step, static_cast<std::size_t>(7e-6 / (4.17 * strip.critical_time_step)) + 1};
+  strip.sampling = {4.17 * strip.critical_time_step,
+                    static_cast<std::size_t>(7e-6 / (4.17 * strip.critical_time_step)) + 1};
   const SimulationResult r = simulate_exact(strip.assembly, strip.input, strip.sampling);
   const test::DenseModes modes(strip.assembly, strip.input.contact, {}, strip.input.held);
   EXPECT_NEAR(modes.largest_frequency() * strip.critical_time_step, 2.0, 1e-5);
@@ -25,7 +27,8 @@ TEST(ExactStrip, ReleasedColumnIsThatOfTheDenseModes) {
     for (std::size_t k = 0; k < strip.input.receivers.size(); ++k) {
       const int d = strip.input.receivers[k].discs[0];
       size = std::max(size, std::abs(modes.displacement(q, d, 0)));
-      worst = std::max({worst, std::abs(r.signals.ux[k][n] - modes.displacement(q, d, 0)), std::abs(r.signals.uy[k][n] - modes.displacement(q, d, 1))});
+      worst = std::max({worst, std::abs(r.signals.ux[k][n] - modes.displacement(q, d, 0)),
+                        std::abs(r.signals.uy[k][n] - modes.displacement(q, d, 1))});
     }
   }
   EXPECT_GT(size, 1e-9);  // a tenth of the amplitude has arrived

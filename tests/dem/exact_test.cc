@@ -1,5 +1,5 @@
-// Signals that are exact in time, against the dense eigenvectors of small strips: released, struck and driven; rigid discs
-// and implicit strains.
+// Signals that are exact in time, against the dense eigenvectors of small strips: released, struck and
+// driven; rigid discs and implicit strains.
 
 #include "dem/simulation/exact.h"
 
@@ -28,7 +28,8 @@ struct Law {
 
 DeformationParameters implicit(Correction c) {
   DeformationParameters d{Scheme::implicit, c, 4.0 * kNormalStiffness, 0.3, Plane::stress};
-  // The polynomial's stiffness is then that of converged strains to 1e-11 for any motion (strain_polynomial.h).
+  // The polynomial's stiffness is then that of converged strains to 1e-11 for any motion
+  // (strain_polynomial.h).
   d.tolerance = 1e-13;
   return d;
 }
@@ -44,7 +45,8 @@ Assembly uneven_strip() {
   Assembly a = test::hexagonal_assembly({.columns = 10, .rows = 5, .radius = 1e-4});
   Packing p = a.packing;
   test::Noise noise(5);
-  for (std::size_t d = 0; d < p.size(); ++d) p.radius[d] *= 1.0 + 0.05 * noise(), p.x[d] += 2e-6 * noise(), p.y[d] += 2e-6 * noise();
+  for (std::size_t d = 0; d < p.size(); ++d)
+    p.radius[d] *= 1.0 + 0.05 * noise(), p.x[d] += 2e-6 * noise(), p.y[d] += 2e-6 * noise();
   return make_assembly(p, bonds_within_gap(p, 0.3 * mean_radius(p)), 1.0, test::kDensity);
 }
 
@@ -66,7 +68,8 @@ class Exact : public testing::TestWithParam<Law> {
   DenseModes modes() const { return {a_, in_.contact, in_.deformation, in_.held}; }
 
   /// Largest difference from exact(t), over the largest of exact itself.
-  double error(const SimulationResult& r, const DenseModes& m, const std::function<Eigen::VectorXd(double)>& exact) const {
+  double error(const SimulationResult& r, const DenseModes& m,
+               const std::function<Eigen::VectorXd(double)>& exact) const {
     double size = 0.0, worst = 0.0;
     const double radius = mean_radius(a_.packing);
     for (std::size_t n = 0; n < sampling_.samples; ++n) {
@@ -75,9 +78,11 @@ class Exact : public testing::TestWithParam<Law> {
       const Eigen::VectorXd q = exact(t);
       for (std::size_t k = 0; k < in_.receivers.size(); ++k) {
         const int d = in_.receivers[k].discs[0];
-        worst = std::max({worst, std::abs(r.signals.ux[k][n] - m.displacement(q, d, 0)), std::abs(r.signals.uy[k][n] - m.displacement(q, d, 1))});
+        worst = std::max({worst, std::abs(r.signals.ux[k][n] - m.displacement(q, d, 0)),
+                          std::abs(r.signals.uy[k][n] - m.displacement(q, d, 1))});
         size = std::max({size, std::abs(m.displacement(q, d, 0)), std::abs(m.displacement(q, d, 1))});
-        if (in_.contact.has_rotation()) worst = std::max(worst, radius * std::abs(r.signals.theta[k][n] - m.displacement(q, d, 2)));
+        if (in_.contact.has_rotation())
+          worst = std::max(worst, radius * std::abs(r.signals.theta[k][n] - m.displacement(q, d, 2)));
       }
     }
     return worst / size;
@@ -90,10 +95,12 @@ class Exact : public testing::TestWithParam<Law> {
 };
 INSTANTIATE_TEST_SUITE_P(Laws, Exact, testing::ValuesIn(laws), [](const auto& p) { return p.param.name; });
 
-double struck(double w, double t) { return w == 0.0 ? t : std::sin(w * t) / w; }
+double struck(double w, double t) {
+  return w == 0.0 ? t : std::sin(w * t) / w;
+}
 
-// Round-off: a few hundred coefficients, 1e-16 each of their sum of order 20, and the eigenvectors' 1e-13; with the
-// strains' 1e-11. The strip that the issue of accuracy names must be met within 1e-10.
+// Round-off: a few hundred coefficients, 1e-16 each of their sum of order 20, and the eigenvectors' 1e-13;
+// with the strains' 1e-11. The strip that the issue of accuracy names must be met within 1e-10.
 constexpr double kTolerance = 1e-10;
 
 TEST_P(Exact, Released) {
@@ -105,10 +112,13 @@ TEST_P(Exact, Released) {
   EXPECT_LT(r.energy_drift.value(), 1e-11);
   const DenseModes m = modes();
   const Eigen::VectorXd start = m.unknowns(u, {}, {});
-  EXPECT_LT(error(r, m, [&](double t) { return m.apply([t](double w) { return std::cos(w * t); }, start); }), kTolerance);
+  EXPECT_LT(error(r, m, [&](double t) { return m.apply([t](double w) { return std::cos(w * t); }, start); }),
+            kTolerance);
   // At any step below: what the march would err by in itself has gone.
   in_.time_step *= 0.43;
-  EXPECT_LT(error(simulate_exact(a_, in_, sampling_), m, [&](double t) { return m.apply([t](double w) { return std::cos(w * t); }, start); }), kTolerance);
+  EXPECT_LT(error(simulate_exact(a_, in_, sampling_), m,
+                  [&](double t) { return m.apply([t](double w) { return std::cos(w * t); }, start); }),
+            kTolerance);
 }
 
 TEST_P(Exact, DisplacedAndStruck) {
@@ -124,7 +134,8 @@ TEST_P(Exact, DisplacedAndStruck) {
   const Eigen::VectorXd u = m.unknowns(s.ux, s.uy, s.theta), v = m.unknowns(s.vx, s.vy, s.omega);
   EXPECT_LT(error(simulate_exact(a_, in_, sampling_), m,
                   [&](double t) -> Eigen::VectorXd {
-                    return m.apply([t](double w) { return std::cos(w * t); }, u) + m.apply([t](double w) { return struck(w, t); }, v);
+                    return m.apply([t](double w) { return std::cos(w * t); }, u) +
+                           m.apply([t](double w) { return struck(w, t); }, v);
                   }),
             kTolerance);
 }
@@ -153,12 +164,17 @@ TEST_P(Exact, Driven) {
     std::vector<double> edge(a_.size(), 0.0);
     for (const int d : in_.drive->discs) driven[d] = 1, edge[d] = in_.drive->amplitude;
     const DenseModes m(a_, in_.contact, in_.deformation, held);
-    const Eigen::VectorXd moved = direction == Direction::x ? m.unknowns(edge, {}, {}) : m.unknowns({}, edge, {});
+    const Eigen::VectorXd moved =
+        direction == Direction::x ? m.unknowns(edge, {}, {}) : m.unknowns({}, edge, {});
     const Eigen::VectorXd acceleration = m.acceleration(moved);
     const double pulse = 2.0 * pi / duration;
     EXPECT_LT(error(r, m,
                     [&](double t) -> Eigen::VectorXd {
-                      return m.apply([&](double w) { return cosine_drive(w, pulse, t) - cosine_drive(w, pulse, t - duration); }, acceleration) +
+                      return m.apply(
+                                 [&](double w) {
+                                   return cosine_drive(w, pulse, t) - cosine_drive(w, pulse, t - duration);
+                                 },
+                                 acceleration) +
                              in_.drive->displacement(t) / in_.drive->amplitude * moved;
                     }),
               kTolerance);
@@ -178,7 +194,8 @@ TEST_P(Exact, VerletConvergesToIt) {
     fine.steps = 49L * fine.sample_every;
     const Signals verlet = simulate(a_, fine).signals;
     for (std::size_t k = 0; k < exact.uy.size(); ++k) {
-      for (std::size_t n = 0; n < exact.time.size(); ++n) error[refinement] = std::max(error[refinement], std::abs(verlet.uy[k][n] - exact.uy[k][n]));
+      for (std::size_t n = 0; n < exact.time.size(); ++n)
+        error[refinement] = std::max(error[refinement], std::abs(verlet.uy[k][n] - exact.uy[k][n]));
     }
   }
   EXPECT_NEAR(std::log2(error[0] / error[1]), 2.0, 0.05);
@@ -215,7 +232,8 @@ TEST_F(ExactRefuses, WhatIsNotLinearOrHasNoEnergy) {
   expect_refused();
 }
 
-/// Two discs 1 um apart, not bonded, each bonded to a neighbour: a push of 4 um closes the gap, of 0.02 um does not.
+/// Two discs 1 um apart, not bonded, each bonded to a neighbour: a push of 4 um closes the gap, of 0.02 um
+/// does not.
 TEST(ExactContacts, ThatCloseAreReportedAndNothingElse) {
   Packing p;
   p.x = {0.0, 2e-4, 4.01e-4, 6.01e-4};

@@ -28,25 +28,27 @@ struct Case {
   Kinematics kinematics = Kinematics::linear;
 };
 
-DeformationParameters strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial, int evaluations = 1) {
+DeformationParameters strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial,
+                              int evaluations = 1) {
   DeformationParameters d{scheme, Correction::full, 4.0 * kNormalStiffness, 0.3, Plane::stress};
   d.solver = solver;
   d.evaluations = evaluations;
   return d;
 }
 
-const Case cases[] = {{"Column", Source::column, 0.25},
-                      {"ColumnWithoutShear", Source::column, 0.0},
-                      {"Cosine", Source::cosine, 0.25},
-                      {"Drive", Source::drive, 0.25},
-                      {"Inside", Source::inside, 0.25},
-                      {"Nothing", Source::nothing, 0.25},
-                      {"Nonlinear", Source::column, 0.25, {}, Kinematics::nonlinear},
-                      {"Lagged", Source::column, 0.25, strains(Scheme::lagged)},
-                      {"LaggedThrice", Source::drive, 0.25, strains(Scheme::lagged, StrainSolver::polynomial, 3)},
-                      {"Implicit", Source::column, 0.25, strains(Scheme::implicit)},
-                      {"ImplicitDriven", Source::drive, 0.25, strains(Scheme::implicit)},
-                      {"Gradients", Source::column, 0.25, strains(Scheme::implicit, StrainSolver::conjugate_gradients)}};
+const Case cases[] = {
+    {"Column", Source::column, 0.25},
+    {"ColumnWithoutShear", Source::column, 0.0},
+    {"Cosine", Source::cosine, 0.25},
+    {"Drive", Source::drive, 0.25},
+    {"Inside", Source::inside, 0.25},
+    {"Nothing", Source::nothing, 0.25},
+    {"Nonlinear", Source::column, 0.25, {}, Kinematics::nonlinear},
+    {"Lagged", Source::column, 0.25, strains(Scheme::lagged)},
+    {"LaggedThrice", Source::drive, 0.25, strains(Scheme::lagged, StrainSolver::polynomial, 3)},
+    {"Implicit", Source::column, 0.25, strains(Scheme::implicit)},
+    {"ImplicitDriven", Source::drive, 0.25, strains(Scheme::implicit)},
+    {"Gradients", Source::column, 0.25, strains(Scheme::implicit, StrainSolver::conjugate_gradients)}};
 
 class Front : public testing::TestWithParam<Case> {
  protected:
@@ -70,9 +72,14 @@ class Front : public testing::TestWithParam<Case> {
           if (s < 1.0) u[d] = 5e-9 * (1.0 + std::cos(std::numbers::pi * s));
         }
         break;
-      case Source::drive: in.drive = EdgeDrive{left, Direction::y, 1e-8, 30.0 * in.time_step}; break;
-      case Source::inside: in.initial.omega.assign(a.size(), 0.0), in.initial.omega[a.size() / 2] = 1.0; break;
-      case Source::nothing: break;
+      case Source::drive:
+        in.drive = EdgeDrive{left, Direction::y, 1e-8, 30.0 * in.time_step};
+        break;
+      case Source::inside:
+        in.initial.omega.assign(a.size(), 0.0), in.initial.omega[a.size() / 2] = 1.0;
+        break;
+      case Source::nothing:
+        break;
     }
     return in;
   }
@@ -87,7 +94,8 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 void expect_same_bits(const SimulationResult& a, const SimulationResult& b) {
   ASSERT_EQ(a.signals.ux.size(), b.signals.ux.size());
   for (std::size_t r = 0; r < a.signals.ux.size(); ++r) {
-    EXPECT_TRUE(same_bits(a.signals.ux[r], b.signals.ux[r]) && same_bits(a.signals.uy[r], b.signals.uy[r]) && same_bits(a.signals.theta[r], b.signals.theta[r]));
+    EXPECT_TRUE(same_bits(a.signals.ux[r], b.signals.ux[r]) && same_bits(a.signals.uy[r], b.signals.uy[r]) &&
+                same_bits(a.signals.theta[r], b.signals.theta[r]));
   }
   const auto expect_same_state = [](const InitialState& s, const InitialState& t) {
     EXPECT_TRUE(same_bits(s.ux, t.ux) && same_bits(s.uy, t.uy) && same_bits(s.theta, t.theta));
@@ -97,7 +105,8 @@ void expect_same_bits(const SimulationResult& a, const SimulationResult& b) {
   ASSERT_EQ(a.snapshots.size(), b.snapshots.size());
   for (std::size_t k = 0; k < a.snapshots.size(); ++k) {
     expect_same_state(a.snapshots[k].state, b.snapshots[k].state);
-    EXPECT_TRUE(same_bits(a.snapshots[k].strain.xx, b.snapshots[k].strain.xx) && same_bits(a.snapshots[k].strain.xy, b.snapshots[k].strain.xy));
+    EXPECT_TRUE(same_bits(a.snapshots[k].strain.xx, b.snapshots[k].strain.xx) &&
+                same_bits(a.snapshots[k].strain.xy, b.snapshots[k].strain.xy));
   }
   EXPECT_EQ(a.energy_drift, b.energy_drift);
 }
