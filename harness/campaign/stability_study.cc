@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -33,6 +34,7 @@ constexpr double kNoGrowth = 1e-9;
 constexpr double kDrowned = 1.5;
 constexpr double kEnough = 1e-8;      // residual of the linear prediction, over the signals
 constexpr std::size_t kWindow = 60;   // samples
+constexpr double kSameReading = 1e-3;  // of the growth, far below the 2 % that count
 // Noise holds a share of 1/sqrt(2 discs) of the worst motion, 0.1, and diverges at 1e3: 1e4 = e^9.2.
 constexpr double kNoiseGrowth = 12.0 / kNoiseSteps;
 
@@ -171,6 +173,33 @@ SimulationInput input_of(const Subject& subject, const DeformationParameters& d,
   return in;
 }
 
+/// By linear prediction of the last half of recordings of every step, read every `interval` steps.
+std::optional<double> growth_read_every(int interval, const std::vector<std::vector<double>>& recordings) {
+  const std::size_t steps = recordings.front().size(), samples = (steps - 1) / static_cast<std::size_t>(interval) + 1;
+  std::vector<std::vector<double>> read;
+  for (const std::vector<double>& every : recordings) {
+    std::vector<double>& some = read.emplace_back();
+    for (std::size_t k = 0; k < samples; ++k) some.push_back(every[k * static_cast<std::size_t>(interval)]);
+  }
+  const Prediction p = predict_linearly(read, samples / 2, samples, kEnough);
+  if (!(p.largest() > 0.0)) return std::nullopt;
+  return std::pow(p.largest(), 1.0 / interval) - 1.0;
+}
+
+/// Two motions whose frequencies differ by a multiple of the frequency of reading look like one, of neither's growth. They
+/// do so at one interval of three neighbours, not at two: the median of the three, the third where the first two differ.
+std::optional<double> growth_a_step(const std::vector<std::vector<double>>& recordings, int interval) {
+  if (interval <= 1) return growth_read_every(1, recordings);
+  auto first = growth_read_every(interval, recordings), second = growth_read_every(interval - 1, recordings);
+  if (!first || !second) return first ? first : second;
+  if (std::abs(*first - *second) <= kSameReading * std::max(std::abs(*first), kGrowthFloor)) return first;
+  const auto third = growth_read_every(interval + 1, recordings);
+  if (!third) return first;
+  std::array<double, 3> readings{*first, *second, *third};
+  std::sort(readings.begin(), readings.end());
+  return readings[1];
+}
+
 /// Released from the predicted motion, its growth a step.
 std::optional<double> release(const Subject& subject, const Start& start, SimulationInput in) {
   const ddem::Assembly& a = subject.assembly();
@@ -193,7 +222,6 @@ std::optional<double> release(const Subject& subject, const Start& start, Simula
   const double grown = growth * static_cast<double>((in.steps - 1) / 16 * 16);
   const double offset = kAmplitude * std::exp(grown - 6.0) * (grown > 6.0 ? 1.0 : 0.0);
   for (double& u : in.initial.ux) u += offset;
-  in.sample_every = static_cast<int>(std::max<long>(1, in.steps / 2 / static_cast<long>(kWindow)));
   for (int p = 0; p < static_cast<int>(a.size()); ++p) in.receivers.push_back({{p}});
   const Signals signals = simulate(a, in).signals;
   std::vector<std::vector<double>> all = signals.ux;
@@ -205,10 +233,7 @@ std::optional<double> release(const Subject& subject, const Start& start, Simula
     for (double& value : theta) value *= r;
     all.push_back(std::move(theta));
   }
-  const std::size_t samples = signals.time.size();
-  const Prediction p = predict_linearly(all, samples / 2, samples, kEnough);
-  if (!(p.largest() > 0.0)) return std::nullopt;
-  return std::pow(p.largest(), 1.0 / in.sample_every) - 1.0;
+  return growth_a_step(all, static_cast<int>(in.steps / 2 / static_cast<long>(kWindow)));
 }
 
 /// Noise that is the same everywhere: no library's random numbers, whose distributions differ.
