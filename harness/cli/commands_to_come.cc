@@ -7,9 +7,7 @@
 namespace ddem::harness {
 
 void add_commands_to_come(CLI::App& app, Action& action) {
-  for (const auto& [name, what] : {std::pair{"calibrate", "Contact parameters for target moduli"},
-                                   std::pair{"report", "Render the report of a finished campaign again"},
-                                   std::pair{"compare", "Compare a campaign with a baseline"}}) {
+  for (const auto& [name, what] : {std::pair{"calibrate", "Contact parameters for target moduli"}}) {
     CLI::App* command = app.add_subcommand(name, std::string(what) + " (not built yet)");
     command->allow_extras();
     command->callback([name = std::string(name), &action] {

@@ -31,6 +31,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   Action action;
   add_validate_command(app, action);
+  add_report_command(app, action);
+  add_merge_command(app, action);
+  add_baseline_command(app, action);
+  add_compare_command(app, action);
+  add_history_command(app, action);
   add_run_command(app, action);
   add_fem_command(app, action);
   add_moduli_command(app, action);
