@@ -32,6 +32,10 @@ if(DDEM_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+if(DDEM_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 # Explicit sources, flags and the repository root as the only include path: #include "dem/core/packing.h".
 function(ddem_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

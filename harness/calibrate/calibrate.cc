@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/campaign/worker_pool.h"
+#include "harness/nightly/worker_pool.h"
 #include "harness/io/errors.h"
 
 namespace ddem::harness {

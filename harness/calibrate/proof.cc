@@ -6,7 +6,7 @@
 
 #include "dem/spectra/spectra.h"
 #include "dem/statics/moduli.h"
-#include "harness/campaign/worker_pool.h"
+#include "harness/nightly/worker_pool.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/run/dem_run.h"

@@ -1,12 +1,15 @@
-// Campaign files: one TOML table, [strip], every problem listed at once.
+// Campaign files: [strip] and [[case]], every problem listed at once.
+#include "harness/campaign/read_campaign.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 
-#include "harness/campaign/strip_campaign.h"
+#include "harness/campaign/read_cases.h"
 #include "harness/io/errors.h"
 #include "harness/scene/document.h"
 #include "harness/scene/nearest_name.h"
@@ -144,27 +147,41 @@ std::map<std::string, Setter> setters(StripCampaign& c) {
 
 }  // namespace
 
-StripCampaign read_strip_campaign(const std::filesystem::path& path) {
-  StripCampaign campaign;
-  const std::string file = path.string();
+CampaignFile read_campaign(const std::filesystem::path& path) {
   const auto text = read_text_file(path, kMostBytes);
   if (!text) throw InputError(to_string(text.violations));
-  const auto document = parse_document(*text, file);
+  return parse_campaign(*text, path);
+}
+
+CampaignFile parse_campaign(std::string_view text, const std::filesystem::path& path) {
+  CampaignFile campaign;
+  const std::string file = path.string();
+  const auto document = parse_document(text, file);
   if (!document) throw InputError(to_string(document.violations));
 
-  const auto known = setters(campaign);
+  const auto known = setters(campaign.strip);
   std::vector<std::string_view> names;
   for (const auto& [key, setter] : known) names.push_back(key);
   std::vector<std::string> problems;
   const auto report = [&](int line, const std::string& key, const std::string& value, const std::string& message, const std::string& remedy) {
     problems.push_back(to_string(Violation{file, line, 0, key, value, message, remedy}));
   };
+  bool has_strip = false, has_cases = false;
   for (const TableHeader& table : document->tables) {
-    if (table.name != "strip") report(table.line, table.name, "", "unknown table", "a campaign has one table, [strip]");
+    if (table.name == "strip") has_strip = true;
+    else report(table.line, table.name, "", "unknown table", "a campaign has [strip], and [[case]] for scenes of your own");
+  }
+  for (const Element& element : document->elements) {
+    if (element.name == "case") has_cases = true;
+    else report(element.line, element.name, "", "unknown table", "a campaign has [strip], and [[case]] for scenes of your own");
   }
   for (const Entry& entry : document->entries) {
     if (entry.table != "strip") {
-      if (entry.table.empty()) report(entry.node.line, entry.key, entry.node.text, "stands outside of [strip]", "move it below [strip]");
+      const bool array = std::any_of(document->elements.begin(), document->elements.end(),
+                                     [&](const Element& e) { return e.name == entry.key; });
+      if (entry.table.empty() && !array) {
+        report(entry.node.line, entry.key, entry.node.text, "stands outside of [strip]", "move it below [strip]");
+      }
       continue;
     }
     const auto setter = known.find(entry.key);
@@ -177,12 +194,16 @@ StripCampaign read_strip_campaign(const std::filesystem::path& path) {
       report(entry.node.line, key, entry.node.text, "not a value of this key", remedy);
     }
   }
-  if (campaign.rows % 2 != 0) {
+  if (campaign.strip.rows % 2 != 0) {
     problems.push_back(fmt::format("{}: strip.rows = {}: an odd number of rows does not close periodically; give an even one", file,
-                                   campaign.rows));
+                                   campaign.strip.rows));
   }
+  campaign.cases = read_cases(*document, path, problems);
+  campaign.has_strip = has_strip || !has_cases;
   if (!problems.empty()) throw InputError(problems);
   return campaign;
 }
+
+StripCampaign read_strip_campaign(const std::filesystem::path& path) { return read_campaign(path).strip; }
 
 }  // namespace ddem::harness

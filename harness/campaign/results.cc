@@ -13,8 +13,7 @@ const StaticOutcome* CampaignResults::find(const StripMaterial& key) const {
 }
 
 const WaveOutcome* CampaignResults::find(const StripCase& c) const {
-  const std::string id = id_of(c);
-  const auto it = std::find_if(waves.begin(), waves.end(), [&](const WaveOutcome& w) { return id_of(w.c) == id; });
+  const auto it = std::find_if(waves.begin(), waves.end(), [&](const WaveOutcome& w) { return w.c == c; });
   return it == waves.end() ? nullptr : &*it;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 // What a campaign found: plain data from which verdicts, files and the report are made.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dem/statics/moduli.h"
 #include "harness/bench/precision.h"
+#include "harness/campaign/discrimination_study.h"
 #include "harness/campaign/dispersion_study.h"
 #include "harness/campaign/range_study.h"
 #include "harness/campaign/scheme_study.h"
@@ -14,6 +16,7 @@
 #include "harness/campaign/size_study.h"
 #include "harness/campaign/strip_campaign.h"
 #include "harness/campaign/strip_film.h"
+#include "harness/campaign/user_case.h"
 #include "harness/measure/elastic_constants.h"
 #include "harness/run/measure_wave.h"
 #include "harness/run/scene_moduli.h"
@@ -119,6 +122,8 @@ struct StripPicture {
 
 struct CampaignResults {
   StripCampaign campaign;
+  bool has_strip = true;  ///< false: the campaign has the user's cases only
+  std::vector<CaseResult> cases;
   std::vector<StaticOutcome> statics;
   std::vector<WaveOutcome> waves;
   std::vector<StabilityOutcome> stability;
@@ -129,6 +134,8 @@ struct CampaignResults {
   std::vector<StabilityMap> stability_maps;
   std::optional<DispersionStudy> dispersion;
   std::optional<SizeStudy> sizes;
+  std::optional<DiscriminationStudy> discrimination;
+  std::map<std::string, std::string> failed_units;  ///< which gave no result, and why; each is an ERROR of its own
   std::string fem_failure;  ///< why there are no finite-element results at all
   StripPicture picture;
   std::optional<StripFilm> film;

@@ -71,27 +71,15 @@ std::string name(Model model) {
 
 std::string name(StripWave wave) { return wave == StripWave::bar ? "bar" : wave == StripWave::shear ? "shear" : "P"; }
 
-std::string material_slug(Model model, double stiffness_ratio) { return fmt::format("{}/kt{:.2f}", slug(model), stiffness_ratio); }
+std::string material_slug(Model model, double stiffness_ratio) {
+  // Ratios that two decimals cannot tell apart must not share a name.
+  const std::string two = fmt::format("{:.2f}", stiffness_ratio);
+  return fmt::format("{}/kt{}", slug(model), std::stod(two) == stiffness_ratio ? two : fmt::format("{}", stiffness_ratio));
+}
 
 std::string id_of(const StripCase& c) {
   return fmt::format("{}/{}/{}/{}", c.protocol == Protocol::paper ? "paper" : "long-wave", slug(c),
                      material_slug(c.model, c.stiffness_ratio), c.wave == StripWave::p ? "p" : name(c.wave));
-}
-
-std::vector<StripCase> cases_of(const StripCampaign& s) {
-  std::vector<StripCase> cases;
-  for (const Model model : s.models) {
-    for (const double ratio : s.stiffness_ratios) {
-      for (const StripWave wave : {StripWave::bar, StripWave::shear, StripWave::p}) {
-        cases.push_back({StripPacking::hexagonal, 0, model, ratio, Protocol::long_wave, wave});
-        for (const std::int64_t seed : s.seeds) {
-          cases.push_back({StripPacking::random, seed, model, ratio, Protocol::long_wave, wave});
-          if (wave != StripWave::p) cases.push_back({StripPacking::random, seed, model, ratio, Protocol::paper, wave});
-        }
-      }
-    }
-  }
-  return cases;
 }
 
 std::string scene_text(const StripCampaign& s, const StripCase& c, double speed) {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -53,15 +52,14 @@ struct StripCase {
   double stiffness_ratio = 0.0;
   Protocol protocol = Protocol::long_wave;
   StripWave wave = StripWave::shear;
+
+  bool operator==(const StripCase&) const = default;
 };
 
 std::string name(Model model);       ///< "DEM", "DDEM N", "DDEM F", "DDEM F implicit"
 std::string name(StripWave wave);    ///< "bar", "shear", "P"
 std::string material_slug(Model model, double stiffness_ratio);  ///< "lagged-full/kt0.30": the end of a verdict's name
 std::string id_of(const StripCase& c);  ///< "long-wave/random-1/lagged-full/kt0.30/shear"
-
-/// All simulations of the campaign, in a fixed order.
-std::vector<StripCase> cases_of(const StripCampaign& campaign);
 
 /// The scene file of a case. `speed` (m/s) turns the pulse's length into the drive's duration.
 std::string scene_text(const StripCampaign& campaign, const StripCase& c, double speed);
@@ -70,9 +68,5 @@ std::string assembly_text(const StripCampaign& campaign, const StripCase& c, boo
 
 /// Parses a text made by the two functions above. Throws std::logic_error if it is not a valid scene.
 Scene scene_of(const std::string& text, const std::string& name);
-
-/// Reads a campaign file: a TOML table [strip] whose keys are the members above; what is absent keeps its default.
-/// Throws InputError listing every problem with file and line.
-StripCampaign read_strip_campaign(const std::filesystem::path& path);
 
 }  // namespace ddem::harness

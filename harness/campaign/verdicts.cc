@@ -354,6 +354,15 @@ std::vector<Verdict> verdicts_of(const CampaignResults& r) {
   if (r.sizes) {
     for (const auto& verdict : {size_bias_verdict, size_wave_verdict}) verdicts.push_back(verdict(*r.sizes));
   }
+  if (r.discrimination) verdicts.push_back(discrimination_verdict(*r.discrimination));
+  for (const CaseResult& c : r.cases) verdicts.push_back(case_verdict(c));
+  for (const auto& [id, reason] : r.failed_units) {
+    verdicts.push_back({.case_id = "unit/" + id,
+                        .title = "A part of the campaign that gave no result",
+                        .state = State::error,
+                        .reason = reason,
+                        .reproduce = "ddem validate"});
+  }
   for (Verdict& v : verdicts) {
     if (v.reproduce.empty()) v.reproduce = fmt::format("ddem validate --only {}", v.case_id);
   }

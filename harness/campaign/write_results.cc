@@ -11,6 +11,7 @@
 #include "harness/io/errors.h"
 #include "harness/io/hdf5.h"
 #include "harness/io/json.h"
+#include "harness/nightly/summary.h"
 #include "harness/provenance/provenance.h"
 #include "reports/junit.h"
 
@@ -18,34 +19,6 @@ namespace ddem::harness {
 namespace {
 
 constexpr std::size_t kStoredSamples = 300;  // of a signal; a wave run has some thousands
-
-Json provenance_json() {
-  Json j = Json::object();
-  for (const auto& [key, value] : provenance()) j[key] = value;
-  return j;
-}
-
-Json criterion_json(const reports::Criterion& c) {
-  Json j{{"metric", c.metric}, {"actual", number_or_status(c.actual, "not measured")}};
-  // A criterion without a target or bound has no such key.
-  if (std::isfinite(c.target)) j["target"] = c.target;
-  if (std::isfinite(c.lower)) j["lower"] = c.lower;
-  if (std::isfinite(c.upper)) j["upper"] = c.upper;
-  j["unit"] = c.unit;
-  j["derivation"] = c.derivation;
-  j["state"] = reports::to_string(c.state);
-  return j;
-}
-
-Json summary_json(const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
-  Json j{{"schema_version", 1}, {"title", r.campaign.title}, {"provenance", provenance_json()}, {"wall_seconds", r.wall_seconds}, {"cases", Json::array()}};
-  for (const reports::Verdict& v : verdicts) {
-    Json c{{"id", v.case_id}, {"title", v.title}, {"state", reports::to_string(v.state)}, {"reason", v.reason}, {"reproduce", v.reproduce}, {"criteria", Json::array()}};
-    for (const reports::Criterion& criterion : v.criteria) c["criteria"].push_back(criterion_json(criterion));
-    j["cases"].push_back(c);
-  }
-  return j;
-}
 
 void set_finite(Hdf5Group& g, const std::string& name, std::optional<double> value) {
   if (value && std::isfinite(*value)) g.set_attribute(name, *value);
@@ -246,7 +219,7 @@ void prepare_folder(const std::filesystem::path& folder) {
 void write_results(const std::filesystem::path& folder, const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
   const reports::Report report = report_of(r, verdicts);
   write_hdf5(folder / "results.h5", r, report);
-  write_json(folder / "summary.json", summary_json(r, verdicts));
+  write_json(folder / "summary.json", nightly::summary_json({r.campaign.title, r.wall_seconds, provenance(), verdicts}));
   write_file(folder / "junit.xml", reports::render_junit("ddem validate", verdicts));
   write_report_files(folder, report);
 }

@@ -16,10 +16,12 @@ void add_stability_command(CLI::App& app, Action& action);
 void add_pack_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
 void add_calibrate_command(CLI::App& app, Action& action);
+void add_merge_command(CLI::App& app, Action& action);
+void add_baseline_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
+void add_history_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_scene_reference_command(CLI::App& app, Action& action);
-/// Commands that users may know of, but which are not built yet: they say so and exit with 2.
-void add_commands_to_come(CLI::App& app, Action& action);
 
 }  // namespace ddem::harness

@@ -33,6 +33,10 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   Action action;
   add_validate_command(app, action);
+  add_merge_command(app, action);
+  add_baseline_command(app, action);
+  add_compare_command(app, action);
+  add_history_command(app, action);
   add_run_command(app, action);
   add_fem_command(app, action);
   add_moduli_command(app, action);
@@ -42,7 +46,6 @@ int run(int argc, char** argv) {
   add_bench_command(app, action);
   add_report_command(app, action);
   add_scene_reference_command(app, action);
-  add_commands_to_come(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -4,39 +4,31 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <thread>
 
-#include "harness/campaign/run_campaign.h"
-#include "harness/campaign/verdicts.h"
+#include "harness/campaign/read_campaign.h"
 #include "harness/campaign/write_results.h"
+#include "harness/cli/campaign_output.h"
 #include "harness/cli/commands.h"
 #include "harness/io/errors.h"
+#include "harness/io/folder_lock.h"
 #include "harness/io/progress.h"
+#include "harness/nightly/unit_file.h"
 
 namespace ddem::harness {
 namespace {
 
 struct Options {
-  std::string campaign, folder = "ddem-report", shard, only;
+  std::string campaign, folder = "ddem-report", shard, only, baseline, history;
   int jobs = 0;
-  bool resume = false;
+  bool resume = false, plan = false;
 };
-
-void print_verdicts(const std::vector<reports::Verdict>& verdicts) {
-  for (const reports::Verdict* v : reports::worst_first(verdicts)) {
-    if (reports::is_pass(v->state)) continue;
-    fmt::print("{}: {} {}\n", reports::to_string(v->state), v->case_id, v->reason);
-    for (const reports::Criterion& c : v->criteria) {
-      if (!reports::is_pass(c.state)) fmt::print("    {}\n", reports::outcome_text(c));
-    }
-  }
-  fmt::print("{}\n", reports::headcount(verdicts));
-}
 
 /// A study's case.
 bool is_study(const std::string& id) {
   const auto begins = [&id](const char* study) { return id.starts_with(study); };
-  constexpr std::array studies{"schemes/", "stability-map/", "dispersion/", "sizes/"};
+  constexpr std::array studies{"discrimination", "schemes/", "stability-map/", "dispersion/", "sizes/"};
   return std::any_of(studies.begin(), studies.end(), begins);
 }
 
@@ -63,31 +55,86 @@ void restrict_to(StripCampaign& campaign, const std::string& id) {
   campaign = narrowed;
 }
 
-int run(const Options& o) {
-  if (!o.shard.empty() || o.resume) throw InputError("--shard and --resume: not built yet; run the whole campaign");
-  StripCampaign campaign = o.campaign.empty() ? StripCampaign{} : read_strip_campaign(o.campaign);
-  if (!o.only.empty()) restrict_to(campaign, o.only);
-  prepare_folder(o.folder);
+CampaignSpec spec_from(const Options& o) {
+  CampaignSpec spec;
+  if (!o.campaign.empty()) {
+    CampaignFile file = read_campaign(o.campaign);
+    spec.strip = file.strip;
+    spec.with_strip = file.has_strip;
+    spec.cases = std::move(file.cases);
+  }
+  spec.only = o.only;
+  if (o.only.starts_with("case/")) {
+    std::erase_if(spec.cases, [&](const UserCase& c) { return "case/" + c.id != o.only; });
+    spec.with_strip = false;
+  } else if (!o.only.empty()) {
+    spec.cases.clear();
+    restrict_to(spec.strip, o.only);
+    spec.with_studies = is_study(o.only);
+  }
+  return spec;
+}
 
+/// A run that goes on, or shares a plan with others, must have the very plan.
+void settle_plan(const Options& o, const nightly::Plan& plan) {
+  if (nightly::has_plan(o.folder) && (o.resume || !o.shard.empty())) {
+    if (const std::string d = nightly::difference(nightly::read_plan(o.folder), plan); !d.empty()) {
+      throw InputError(fmt::format("{}: holds another campaign: {}; give another folder by -o, or run it anew without --resume and --shard",
+                                   o.folder, d));
+    }
+    return;
+  }
+  nightly::write_plan(o.folder, plan);
+}
+
+int end_of_shard(const Options& o, const CampaignResults& results, std::size_t units) {
+  for (const auto& [id, reason] : results.failed_units) fmt::print("ERROR: {}: {}\n", id, reason);
+  fmt::print("shard {}: {} units, {} without a result; when all shards are there: ddem merge DIR... -o DIR\n", o.shard, units,
+             results.failed_units.size());
+  return static_cast<int>(results.failed_units.empty() ? ExitCode::done : ExitCode::verdict_failed);
+}
+
+int run(const Options& o) {
+  const nightly::Shard shard = o.shard.empty() ? nightly::Shard{} : nightly::parse_shard(o.shard);
+  const CampaignSpec spec = spec_from(o);
+  if (!o.shard.empty() && (!o.baseline.empty() || !o.history.empty())) {
+    throw InputError("--shard makes a part only: give --baseline and --history to ddem merge");
+  }
+  Conclusion conclusion{o.folder, {}, o.history};
+  if (!o.baseline.empty()) conclusion.baseline = nightly::read_baseline(o.baseline);
+  prepare_folder(o.folder);
+  const FolderLock lock(o.folder);
+
+  std::optional<Progress> progress;
   CampaignOptions options;
-  options.jobs = o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  CampaignResults results;
-  {
-    options.with_studies = o.only.empty() || is_study(o.only);
-    Progress progress(campaign_work(campaign, options), "simulations");
-    options.on_progress = [&](std::size_t done) { progress.advance(done); };
-    results = run_campaign(campaign, options);
+  options.on_progress = [&](std::size_t done) { progress->advance(done); };
+  const PlannedCampaign campaign(spec, options);
+  const nightly::Plan& plan = campaign.plan();
+  settle_plan(o, plan);
+  if (o.plan) {
+    fmt::print("{}/plan.json: {} units\n", o.folder, plan.units.size());
+    return static_cast<int>(ExitCode::done);
   }
-  std::vector<reports::Verdict> verdicts = verdicts_of(results);
-  if (!o.only.empty()) {
-    std::erase_if(verdicts, [&](const reports::Verdict& v) { return v.case_id != o.only; });
-    if (verdicts.empty()) throw InputError("--only " + o.only + ": no such case");
-  }
-  write_results(o.folder, results, verdicts);
-  print_verdicts(verdicts);
-  fmt::print("report: {}/report.html ({:.1f} s)\n", o.folder, results.wall_seconds);
-  const bool failed = std::any_of(verdicts.begin(), verdicts.end(), [](const auto& v) { return reports::is_failure(v.state); });
-  return static_cast<int>(failed ? ExitCode::verdict_failed : ExitCode::done);
+  nightly::UnitBoard board(plan.units.size());
+  nightly::RunOptions run;
+  run.folder = o.folder;
+  run.jobs = o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  run.shard = shard;
+  run.resume = o.resume;
+  run.board = &board;
+  run.on_progress = options.on_progress;
+  const auto work = [&](bool first_time) {
+    run.resume = o.resume || !first_time;
+    progress.emplace(campaign.work(shard), "simulations");
+    const CampaignResults results = campaign.run(run);
+    progress.reset();
+    return o.shard.empty() ? conclude_campaign(campaign, results, conclusion) : end_of_shard(o, results, shard.size(plan.units.size()));
+  };
+  return nightly::supervise(board, work, [&](std::size_t unit, const std::string& reason) {
+    fmt::print(stderr, "{}: {}\n", plan.units[unit].id, reason);
+    nightly::write_unit(o.folder, {plan.units[unit].id, plan.units[unit].identity, {nullptr, reason}});
+    run.given_up.push_back(unit);
+  });
 }
 
 }  // namespace
@@ -97,13 +144,20 @@ void add_validate_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("validate", "Run a campaign and judge it: writes report.html, results.h5, summary.json, junit.xml");
   command->footer("Without a file: the strip of the paper, k_t/k_n = 0, 0.1 .. 1, DEM and DDEM, bar, shear and P waves,\n"
                   "hexagonal and random, against static moduli, closed forms and finite elements. Exit code 1 if a verdict fails.\n"
-                  "A campaign file has one table, [strip]; see harness/campaigns/strip.toml.");
+                  "A campaign file has [strip] (see harness/campaigns/strip.toml), or [[case]] for scenes of your own\n"
+                  "(see harness/campaigns/cases.toml), or both.\n"
+                  "Every result is a file below DIR/cases, whole or not there: what was interrupted goes on with --resume.");
   command->add_option("CAMPAIGN", o->campaign, "campaign file (TOML)");
   command->add_option("-o,--output", o->folder, "folder for the report and results")->capture_default_str();
   command->add_option("-j,--jobs", o->jobs, "simulations at a time (default: the machine's cores)")->check(CLI::Range(1, 1024));
   command->add_option("--only", o->only, "one case of the report by its name, with all that it needs");
-  command->add_option("--shard", o->shard, "i/n: part of a campaign (not built yet)");
-  command->add_flag("--resume", o->resume, "go on with an interrupted campaign (not built yet)");
+  command->add_option("--baseline", o->baseline, "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
+  command->add_option("--history", o->history, "folder that gets one file of this run; see ddem history");
+  command->add_option("--shard", o->shard,
+                      "i/n: the units k of the campaign with k mod n = i - 1, into a folder of their own; then: ddem merge");
+  command->add_flag("--plan", o->plan, "write DIR/plan.json, the list of all units with their identities, and run nothing");
+  command->add_flag("--resume", o->resume,
+                    "go on with an interrupted campaign: keep the results in the folder that are whole and of the same inputs and program");
   command->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -46,19 +46,20 @@ void write_json(const std::filesystem::path& target, const Json& document) {
   write_file(target, to_text(document));
 }
 
-Json read_json(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+Json parse_json(const std::string& text, const std::string& place) {
   // The parser itself does not recurse, but everything that walks its result does.
   const auto limit_depth = [&](int depth, Json::parse_event_t, Json&) {
     if (depth > max_depth)
-      throw InputError(fmt::format("{}: JSON nested deeper than {} levels", path.string(), max_depth));
+      throw InputError(fmt::format("{}: JSON nested deeper than {} levels", place, max_depth));
     return true;
   };
   try {
     return Json::parse(text, limit_depth);
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+    throw InputError(fmt::format("{}: {}", place, error.what()));
   }
 }
+
+Json read_json(const std::filesystem::path& path) { return parse_json(read_file(path), path.string()); }
 
 }  // namespace ddem::harness

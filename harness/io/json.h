@@ -25,6 +25,9 @@ std::string to_text(const Json& document);
 /// to_text() to a file, whole or not at all; errors as in write_file().
 void write_json(const std::filesystem::path& target, const Json& document);
 
+/// Of a text; `place` is for messages. Throws InputError as read_json().
+Json parse_json(const std::string& text, const std::string& place);
+
 /// Throws InputError with the path and place of what is wrong, nesting deeper than 200 levels included.
 Json read_json(const std::filesystem::path& path);
 

@@ -6,10 +6,12 @@
 
 #include <Eigen/Core>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "dem/kernel/step_data.h"
+#include "harness/io/digest.h"
 
 namespace ddem::harness {
 namespace {
@@ -56,6 +58,16 @@ std::vector<std::pair<std::string, std::string>> provenance() {
           {"cores", std::to_string(std::thread::hardware_concurrency())},
           {"instruction set", instruction_set()},
           {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+}
+
+const std::string& program_identity() {
+  static const std::string identity = [] {
+    const auto self = std::filesystem::read_symlink("/proc/self/exe");
+    std::string digests = sha256_of_file("/proc/self/exe");  // even where the file was replaced meanwhile
+    if (const auto fem = self.parent_path() / "ddem-fem"; std::filesystem::exists(fem)) digests += sha256_of_file(fem);
+    return fmt::format("ddem {} ({:.16})", DDEM_VERSION, sha256(digests));
+  }();
+  return identity;
 }
 
 std::string version_text() {

@@ -72,9 +72,9 @@ ProbeLayout nominal_layout(const Scene& scene, const Rectangle& box) {
   return layout;
 }
 
-double mean_column_spacing(const std::optional<ddem::Assembly>& a, const Rectangle& box) {
+double mean_column_spacing(const ddem::Assembly* a, const Rectangle& box) {
   // Columns of a dense packing are sqrt(3) r apart; without discs, a sixtieth of the length.
-  return a ? std::sqrt(3.0) * mean_radius(a->packing) : (box.x1 - box.x0) / 60.0;
+  return a != nullptr ? std::sqrt(3.0) * mean_radius(a->packing) : (box.x1 - box.x0) / 60.0;
 }
 
 double choose_end(const Scene& scene, const FemPlan& plan) {
@@ -98,18 +98,18 @@ bool continuum_stands_alone(const Scene& scene) {
          nominal_rectangle(scene) && !std::holds_alternative<ProbeDiscs>(scene.probes);
 }
 
-FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli) {
+FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, const ddem::Assembly* assembly) {
   const auto wave = wave_of(scene);
   if (!wave) throw InputError(scene.path.string() + ": [initial]: a state from files has no continuum counterpart; give a pulse or [drive]");
-  std::optional<ddem::Assembly> assembly;
-  if (moduli) assembly = build_assembly(scene);
-  Rectangle box = assembly ? rectangle_of(scene, *assembly) : nominal_rectangle(scene).value();
-  if (assembly && scene.assembly.periodic.y && std::holds_alternative<Drive>(scene.load)) {
+  std::optional<ddem::Assembly> built;
+  if (moduli && assembly == nullptr) assembly = &built.emplace(build_assembly(scene));
+  Rectangle box = assembly != nullptr ? rectangle_of(scene, *assembly) : nominal_rectangle(scene).value();
+  if (assembly != nullptr && scene.assembly.periodic.y && std::holds_alternative<Drive>(scene.load)) {
     box.x0 -= grip_offset(scene, *assembly, moduli->speed_of(*wave, true).value(), *wave);
   }
 
   FemPlan plan;
-  plan.layout = assembly ? lay_probes(scene, *assembly) : nominal_layout(scene, box);
+  plan.layout = assembly != nullptr ? lay_probes(scene, *assembly) : nominal_layout(scene, box);
   const auto* pairs = std::get_if<ProbePairs>(&scene.probes);
   plan.sections = pairs != nullptr && pairs->section;
 

@@ -17,7 +17,8 @@ struct FemPlan {
 /// lie at their nominal places. The strip reaches from the mean x of the left edge's discs to that of the right edge's; a driven edge
 /// between periodic ones stands where the static displacement of the discs inside places it.
 /// Throws InputError for a load that has no continuum counterpart (state files) and for missing material.
-FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli);
+/// `assembly`: the scene's, where the caller has it and gives the moduli, too.
+FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, const ddem::Assembly* assembly = nullptr);
 
 /// Whether [continuum] leaves nothing to the discs, so that plan_fem needs no moduli.
 bool continuum_stands_alone(const Scene& scene);

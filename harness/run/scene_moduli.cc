@@ -66,6 +66,11 @@ std::optional<double> SceneModuli::speed_of(Wave wave, bool periodic) const {
 
 SceneModuli scene_moduli(const Scene& scene) {
   const ddem::Assembly a = build_network(scene);
+  const auto closed = scene.assembly.periodic.y ? std::nullopt : build_laterally_closed(scene);
+  return scene_moduli(scene, a, closed ? &*closed : nullptr);
+}
+
+SceneModuli scene_moduli(const Scene& scene, const ddem::Assembly& a, const ddem::Assembly* closed) {
   SceneModuli m;
   m.discs = static_cast<int>(a.size());
   m.bonds = static_cast<int>(a.bonds.size());
@@ -80,7 +85,7 @@ SceneModuli scene_moduli(const Scene& scene) {
       m.stiffness = homogenise(scene, a);
       return m;
     }
-    if (const auto closed = build_laterally_closed(scene)) m.stiffness = homogenise(scene, *closed);
+    if (closed != nullptr) m.stiffness = homogenise(scene, *closed);
     m.strip = pull_strip(a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a));
     m.method = m.stiffness ? "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension"
                            : "the free strip under tension only: this packing from a file does not close in y (give its width as the period)";

@@ -27,6 +27,8 @@ struct SceneModuli {
 
 /// Throws InputError (scene), SolverError (no static equilibrium).
 SceneModuli scene_moduli(const Scene& scene);
+/// The same where the caller has the scene's assembly and, between free edges, its laterally closed counterpart (null: none).
+SceneModuli scene_moduli(const Scene& scene, const ddem::Assembly& assembly, const ddem::Assembly* closed);
 
 /// The kinematic (Voigt) estimate of the same assembly: closed forms of theory section 2, exact on the lattice.
 references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembly& assembly);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int max_dots_in_a_key = 8;
 constexpr int max_list_depth = 2;  // points = [[x, y]]
+constexpr int max_element_depth = 2;  // [[case.criterion]]
 
 struct Position {
   int line = 0, column = 0;
@@ -140,7 +141,16 @@ Node to_node(const toml::node& source, const SourceLines& lines, int depth) {
   return node;
 }
 
-Document to_document(const toml::table& root, const SourceLines& lines) {
+Document to_document(const toml::table& root, const SourceLines& lines, int depth);
+
+void add_elements(Document& document, const std::string& name, const toml::array& array, const SourceLines& lines, int depth) {
+  for (const toml::node& member : array) {
+    const Position position = position_of(member.source());
+    document.elements.push_back({name, position.line, position.column, to_document(*member.as_table(), lines, depth + 1)});
+  }
+}
+
+Document to_document(const toml::table& root, const SourceLines& lines, int depth) {
   Document document;
   const auto add_entry = [&](const std::string& table, const toml::key& key, const toml::node& node) {
     document.entries.push_back({table, std::string(key.str()), to_node(node, lines, 0)});
@@ -149,6 +159,9 @@ Document to_document(const toml::table& root, const SourceLines& lines) {
     const toml::table* table = node.as_table();
     if (!table) {
       add_entry("", key, node);
+      if (node.is_array_of_tables() && depth < max_element_depth) {
+        add_elements(document, std::string(key.str()), *node.as_array(), lines, depth);
+      }
       continue;
     }
     const std::string name(key.str());
@@ -173,7 +186,7 @@ Checked<Document> parse_document(std::string_view text, const std::string& file_
   }
   try {
     const toml::table root = toml::parse(text);
-    return to_document(root, SourceLines(text));
+    return to_document(root, SourceLines(text), 0);
   } catch (const toml::parse_error& error) {
     const Position position = position_of(error.source());
     return Violations{{file_name, position.line, position.column, "", "", std::string(error.description()),

@@ -35,9 +35,19 @@ struct Entry {
   Node node;
 };
 
+struct Element;
+
 struct Document {
   std::vector<TableHeader> tables;
   std::vector<Entry> entries;
+  /// Arrays of tables, [[name]] and [[name.inner]], one a table; entries has each array too, as a value that no key takes.
+  std::vector<Element> elements;
+};
+
+struct Element {
+  std::string name;
+  int line = 0, column = 0;
+  Document inside;
 };
 
 /// Parses TOML 1.0. A syntax error is a Violation without a key that carries the parser's message.

@@ -16,12 +16,31 @@ Violations by_line(Violations violations) {
   return violations;
 }
 
+void apply(Document& document, const SceneOverride& change) {
+  const Checked<Document> value = parse_document("value = " + change.value, "value");
+  const std::size_t dot = change.key.find('.');
+  const std::string table = dot == std::string::npos ? "" : change.key.substr(0, dot), key = change.key.substr(dot + 1);
+  Node node = value && value->entries.size() == 1 ? value->entries.front().node : Node{};
+  node.text = change.value;
+  const auto at = [&](const Entry& e) { return e.table == table && e.key == key; };
+  if (const auto found = std::find_if(document.entries.begin(), document.entries.end(), at); found != document.entries.end()) {
+    node.line = found->node.line;
+    found->node = std::move(node);
+    return;
+  }
+  node.line = 0;
+  const bool known = std::any_of(document.tables.begin(), document.tables.end(), [&](const TableHeader& t) { return t.name == table; });
+  if (!known && !table.empty()) document.tables.push_back({table, 0, 0});
+  document.entries.push_back({table, key, std::move(node)});
+}
+
 }  // namespace
 
 SceneResult parse_scene(std::string_view text, const std::string& name,
                         const std::filesystem::path& base_folder, const ReadOptions& options) {
-  const Checked<Document> document = parse_document(text, name);
+  Checked<Document> document = parse_document(text, name);
   if (!document) return document.violations;
+  for (const SceneOverride& change : options.overrides) apply(*document.value, change);
   Values values(*document, name, base_folder);
   if (!values.too_many_violations()) check_scene(values, options.purpose);
   if (!values.violations().empty()) {

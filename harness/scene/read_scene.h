@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "harness/scene/check_scene.h"
 #include "harness/scene/scene.h"
@@ -11,8 +12,14 @@
 
 namespace ddem::harness {
 
+/// A value instead of what the file says, or says nothing of: {"contact.stiffness_ratio", "0.5"}, as TOML.
+struct SceneOverride {
+  std::string key, value;
+};
+
 struct ReadOptions {
   Purpose purpose = Purpose::simulation;
+  std::vector<SceneOverride> overrides = {};
 };
 
 using SceneResult = Checked<Scene>;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/campaign/strip_campaign.h"
+#include "harness/campaign/read_campaign.h"
 #include "harness/io/errors.h"
 
 namespace ddem::harness {

@@ -48,15 +48,6 @@ TEST_F(Cli, WrongArguments) {
   }
 }
 
-TEST_F(Cli, CommandsToComeSaySo) {
-  write("scene.toml", small_scene());
-  for (const char* command : {"compare"}) {
-    const auto run = ddem({command, path("scene.toml"), "--json"});
-    EXPECT_EQ(run.exit_code, 2) << command;
-    EXPECT_THAT(run.standard_error, HasSubstr(std::string("ddem ") + command + ": not built yet"));
-  }
-}
-
 // What it measures is tested in tests/harness/bench; here: one part alone, as JSON and as files.
 TEST_F(Cli, BenchWritesWhatItPrints) {
   const auto run = ddem({"bench", "--only", "peers", "--json", "-o", path("measured")});

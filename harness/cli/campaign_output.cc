@@ -1,0 +1,61 @@
+#include "harness/cli/campaign_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/campaign/write_results.h"
+#include "harness/io/errors.h"
+#include "harness/nightly/history.h"
+
+namespace ddem::harness {
+namespace {
+
+void print_verdicts(const std::vector<reports::Verdict>& verdicts) {
+  for (const reports::Verdict* v : reports::worst_first(verdicts)) {
+    if (reports::is_pass(v->state)) continue;
+    fmt::print("{}: {} {}\n", reports::to_string(v->state), v->case_id, v->reason);
+    for (const reports::Criterion& c : v->criteria) {
+      if (!reports::is_pass(c.state)) fmt::print("    {}\n", reports::outcome_text(c));
+    }
+  }
+  fmt::print("{}\n", reports::headcount(verdicts));
+}
+
+std::string time_of(const nightly::Summary& summary) {
+  const auto found = std::find_if(summary.provenance.begin(), summary.provenance.end(),
+                                  [](const auto& p) { return p.first == "time"; });
+  return found == summary.provenance.end() ? "unknown" : found->second;
+}
+
+nightly::WorkCounts work_of(const PlannedCampaign& campaign, const CampaignResults& results) {
+  nightly::WorkCounts work;
+  work.units = static_cast<std::int64_t>(campaign.plan().units.size());
+  work.simulations = static_cast<std::int64_t>(results.waves.size());
+  for (const WaveOutcome& w : results.waves) work.steps += w.steps;
+  for (const FemOutcome& f : results.fem) work.finite_element_runs += f.dofs > 0;
+  work.seeds = campaign.spec().strip.seeds;
+  return work;
+}
+
+}  // namespace
+
+int conclude_campaign(const PlannedCampaign& campaign, const CampaignResults& results,
+                      const Conclusion& conclusion) {
+  std::vector<reports::Verdict> verdicts = campaign.verdicts(results);
+  if (conclusion.baseline) nightly::compare(verdicts, *conclusion.baseline);
+  write_results(conclusion.folder, results, verdicts);
+  if (!conclusion.history.empty()) {
+    const nightly::Summary summary = nightly::read_summary(conclusion.folder);
+    fmt::print("history: {}\n", nightly::append_night(conclusion.history,
+                                                      {time_of(summary), summary, work_of(campaign, results)})
+                                    .string());
+  }
+  print_verdicts(verdicts);
+  fmt::print("report: {}/report.html ({:.1f} s)\n", conclusion.folder.string(), results.wall_seconds);
+  const bool failed = std::any_of(verdicts.begin(), verdicts.end(),
+                                  [](const auto& v) { return reports::is_failure(v.state); });
+  return static_cast<int>(failed ? ExitCode::verdict_failed : ExitCode::done);
+}
+
+}  // namespace ddem::harness

@@ -1,0 +1,63 @@
+// ddem merge DIR ... -o DIR
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "harness/campaign/write_results.h"
+#include "harness/cli/campaign_output.h"
+#include "harness/cli/commands.h"
+#include "harness/io/folder_lock.h"
+#include "harness/nightly/merge.h"
+
+namespace ddem::harness {
+namespace {
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string target, baseline, history;
+};
+
+Conclusion conclusion_of(const Options& o) {
+  Conclusion c{o.target, {}, o.history};
+  if (!o.baseline.empty()) c.baseline = nightly::read_baseline(o.baseline);
+  return c;
+}
+
+int merge(const Options& o) {
+  const Conclusion conclusion = conclusion_of(o);
+  const std::string& target = o.target;
+  prepare_folder(target);
+  const FolderLock lock(target);
+  const std::vector<std::filesystem::path> folders(o.folders.begin(), o.folders.end());
+  const nightly::MergeReport merged = nightly::merge_folders(folders, target);
+  for (const std::string& file : merged.refused) fmt::print(stderr, "not used: {}\n", file);
+  for (const std::string& unit : merged.missing) fmt::print(stderr, "missing: {}\n", unit);
+  const PlannedCampaign campaign = PlannedCampaign::of_folder(target);
+  return conclude_campaign(campaign, campaign.read(target), conclusion);
+}
+
+void add_common_options(CLI::App& command, Options& o) {
+  command.add_option("--baseline", o.baseline,
+                     "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
+  command.add_option("--history", o.history, "folder that gets one file of this run; see ddem history");
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("merge", "Join the folders of a campaign's shards, then judge and report it");
+  command->footer(
+      "The folders may overlap, and come in any order. What no folder has is named, and is an ERROR in the "
+      "report;\n"
+      "results that contradict each other are named, and nothing is written. Exit code 1 if a verdict "
+      "fails.\n"
+      "  ddem validate --shard 1/2 -o a; ddem validate --shard 2/2 -o b; ddem merge a b -o night");
+  command->add_option("DIR", o->folders, "folders")->required()->expected(1, -1);
+  command->add_option("-o,--output", o->target, "folder for what they make together")->required();
+  add_common_options(*command, *o);
+  command->callback([o, &action] { action = [o] { return merge(*o); }; });
+}
+
+}  // namespace ddem::harness

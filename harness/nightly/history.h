@@ -1,0 +1,56 @@
+#pragma once
+// One file a night, and what the nights say together.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/io/json.h"
+#include "harness/nightly/summary.h"
+
+namespace ddem::harness::nightly {
+
+/// How much was computed: counts that no machine changes, so that a slow night can be told from a larger one.
+struct WorkCounts {
+  std::int64_t units = 0, simulations = 0, steps = 0, finite_element_runs = 0;
+  std::vector<std::int64_t> seeds;
+};
+
+struct Night {
+  std::string time;  ///< UTC, "2026-11-22T02:00:00Z"
+  Summary summary;
+  WorkCounts work;
+};
+
+/// Writes FOLDER/TIME.json (TIME_002.json where that is taken), the folder made if need be, and returns its
+/// path. MachineError.
+std::filesystem::path append_night(const std::filesystem::path& folder, const Night& night);
+
+/// All nights, the earliest first; other files are left alone. InputError naming every file that is no night,
+/// and where there is none at all.
+std::vector<Night> read_history(const std::filesystem::path& folder);
+
+inline constexpr int kWindows[] = {4, 20, 100};
+
+/// The last night's value of a metric against the nights before it.
+struct Trend {
+  std::string case_id, metric, unit;
+  double now = 0.0;
+  std::vector<double>
+      change;  ///< a window: from the median of as many nights before; NaN with fewer than two
+  std::vector<double> scatter;  ///< a window: what is no change: three standard deviations by the median step
+                                ///< between nights, at least least_noise()
+  bool regressed = false;       ///< worse than the median by more than the scatter over one window at least
+  reports::State state = reports::State::error;  ///< of the last night
+};
+
+/// Of every metric of the last night; and of "wall time", in seconds, where less is better and 20 % no
+/// change.
+std::vector<Trend> trends_of(const std::vector<Night>& nights);
+
+/// A line a metric that changed beyond its scatter, regressed or did not pass, or of all of them; then how
+/// many nights and metrics there are.
+std::string trends_text(const std::vector<Night>& nights, const std::vector<Trend>& trends, bool all);
+
+}  // namespace ddem::harness::nightly

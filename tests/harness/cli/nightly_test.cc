@@ -1,0 +1,242 @@
+// Campaigns from outside: the same bits however they are run, shards, kills, baselines, nights.
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "harness/io/json.h"
+#include "tests/harness/cli/program.h"
+
+extern char** environ;
+
+namespace ddem::harness::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// Six cases of milliseconds each.
+const char* const kCampaign = R"([[case]]
+id = "small"
+scene = "scene.toml"
+[case.matrix]
+"contact.stiffness_ratio" = [0.1, 0.3, 0.5]
+"material.density" = [1000.0, "2000 kg/m3"]
+[[case.criterion]]
+metric = "wave_speed"
+target = "static.p_velocity"
+lower = -0.5
+upper = 0.5
+unit = "m/s"
+derivation = "anything near"
+[[case.criterion]]
+metric = "energy_drift"
+upper = 1e-10
+derivation = "leapfrog keeps its invariant to round-off"
+)";
+
+class Nightly : public Cli {
+ protected:
+  void SetUp() override {
+    write("scene.toml", small_scene());
+    write("campaign.toml", kCampaign);
+  }
+
+  SubprocessResult validate(const std::string& folder, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"validate", path("campaign.toml"), "-o", path(folder)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return ddem(arguments);
+  }
+
+  /// What may not depend on how a campaign was run.
+  std::string outcome(const std::string& folder) const {
+    Json j = read_json(in_folder(folder) / "summary.json");
+    j.erase("wall_seconds");
+    j["provenance"].erase("time");
+    return to_text(j);
+  }
+
+  /// Starts a campaign and kills it, and what it started, after some time.
+  void kill_after(unsigned microseconds, const std::string& folder, bool resume) const {
+    std::vector<std::string> words = {DDEM_PROGRAM, "validate", path("campaign.toml"), "-o", path(folder),
+                                      "-j",         "2"};
+    if (resume) words.push_back("--resume");
+    std::vector<char*> argv;
+    for (std::string& w : words) argv.push_back(w.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t quiet;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    ASSERT_EQ(::posix_spawn(&child, DDEM_PROGRAM, &quiet, nullptr, argv.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&quiet);
+    ::usleep(microseconds);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  }
+};
+
+TEST_F(Nightly, SameForAnyThreadsShardsAndResumption) {
+  const auto one = validate("one", {"-j", "1"});
+  ASSERT_EQ(one.exit_code, 0) << one.standard_output << one.standard_error;
+  EXPECT_THAT(one.standard_output, HasSubstr("6 of 6 passed"));
+  const std::string expected = outcome("one");
+  EXPECT_THAT(expected, HasSubstr("case/small/stiffness_ratio=0.3/density=2000-kg-m3"));
+  for (const char* jobs : {"2", "4"}) {
+    ASSERT_EQ(validate("more", {"-j", jobs}).exit_code, 0);
+    EXPECT_EQ(outcome("more"), expected) << jobs;
+  }
+  for (const char* i : {"1", "2", "3", "4"})
+    ASSERT_EQ(validate(std::string("shard-") + i, {"--shard", std::string(i) + "/4"}).exit_code, 0);
+  const auto merged = ddem(
+      {"merge", path("shard-3"), path("shard-1"), path("shard-4"), path("shard-2"), "-o", path("merged")});
+  ASSERT_EQ(merged.exit_code, 0) << merged.standard_error;
+  EXPECT_EQ(outcome("merged"), expected);
+  std::filesystem::remove(in_folder("one") / "cases/case/small/stiffness_ratio=0.1/density=1000.unit");
+  ASSERT_EQ(validate("one", {"--resume"}).exit_code, 0);
+  EXPECT_EQ(outcome("one"), expected);
+  ASSERT_EQ(ddem({"report", path("one")}).exit_code, 0);
+  EXPECT_EQ(outcome("one"), expected);
+}
+
+TEST_F(Nightly, MissingShardsAreErrorsInTheReport) {
+  ASSERT_EQ(validate("shard", {"--shard", "1/2"}).exit_code, 0);
+  const auto merged = ddem({"merge", path("shard"), "-o", path("merged")});
+  EXPECT_EQ(merged.exit_code, 1);
+  EXPECT_THAT(merged.standard_error, HasSubstr("missing: case/small/stiffness_ratio=0.1/density=2000-kg-m3"));
+  EXPECT_THAT(merged.standard_output,
+              HasSubstr("3 of 9 passed, 6 ERROR"));  // three cases, and the three units that have no result
+}
+
+/// The array script with the variables that Slurm would set, one task after the other.
+TEST_F(Nightly, SlurmArrayScript) {
+  ASSERT_EQ(validate("whole").exit_code, 0);
+  for (const char* task : {"2", "1", "2", "3"}) {  // one of them is started twice
+    EXPECT_FALSE(std::filesystem::exists(in_folder("night") / "report")) << task;
+    const auto run =
+        run_program("/usr/bin/env", {"SLURM_ARRAY_JOB_ID=7", "SLURM_ARRAY_TASK_COUNT=3",
+                                     std::string("SLURM_ARRAY_TASK_ID=") + task, "SLURM_CPUS_PER_TASK=1",
+                                     "NIGHT=" + path("night"), std::string("DDEM=") + DDEM_PROGRAM, "bash",
+                                     DDEM_SCENES "/../campaigns/slurm.sh", path("campaign.toml")});
+    ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  }
+  EXPECT_EQ(outcome("night/report"), outcome("whole"));
+}
+
+/// A plan first: what is run by it must be the same.
+TEST_F(Nightly, PlannedFirst) {
+  const auto plan = validate("night", {"--plan"});
+  ASSERT_EQ(plan.exit_code, 0) << plan.standard_error;
+  EXPECT_THAT(plan.standard_output, HasSubstr("6 units"));
+  EXPECT_FALSE(std::filesystem::exists(in_folder("night") / "summary.json"));
+  EXPECT_EQ(validate("night", {"--resume"}).exit_code, 0);
+}
+
+TEST_F(Nightly, KilledAndResumed) {
+  ASSERT_EQ(validate("whole").exit_code, 0);
+  for (unsigned trial = 0; trial < 8; ++trial) {
+    const std::string folder = "killed-" + std::to_string(trial);
+    kill_after(10000 + 12000 * trial, folder, false);
+    kill_after(5000 + 9000 * trial, folder, true);
+    const auto resumed = validate(folder, {"--resume"});
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.standard_error;
+    EXPECT_EQ(outcome(folder), outcome("whole"));
+  }
+}
+
+TEST_F(Nightly, AnotherCampaignInTheFolderIsNotResumed) {
+  ASSERT_EQ(validate("night").exit_code, 0);
+  const std::string before = outcome("night");
+  write("campaign.toml", replaced(kCampaign, "0.5]", "0.6]"));
+  const auto resumed = validate("night", {"--resume"});
+  EXPECT_EQ(resumed.exit_code, 2);
+  EXPECT_THAT(resumed.standard_error, HasSubstr("stiffness_ratio=0.5"));
+  EXPECT_EQ(outcome("night"), before);
+}
+
+TEST_F(Nightly, ADivergingCaseIsUnstable) {
+  write("scene.toml", with_table(small_scene(),
+                                 "[time]\nstep_fraction = 1.02\nallow_above_critical = true\nsteps = 20000"));
+  const auto run = validate("night");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.standard_output, HasSubstr("6 UNSTABLE"));
+  EXPECT_THAT(run.standard_output, HasSubstr("at step"));
+}
+
+TEST_F(Nightly, BaselinesAndNights) {
+  ASSERT_EQ(validate("first", {"--history", path("nights")}).exit_code, 0);
+  const auto none = validate("second", {"--baseline", path("mistyped.json")});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(in_folder("mistyped.json")));
+  EXPECT_FALSE(std::filesystem::exists(in_folder("second")));
+  EXPECT_EQ(ddem({"compare", path("first"), path("mistyped.json")}).exit_code, 2);
+  EXPECT_EQ(ddem({"baseline", "update", path("mistyped"), "-o", path("baseline.json")}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(in_folder("baseline.json")));
+
+  ASSERT_EQ(ddem({"baseline", "update", path("first"), "-o", path("baseline.json")}).exit_code, 0);
+  ASSERT_EQ(ddem({"compare", path("first"), path("baseline.json")}).exit_code, 0);
+  ASSERT_EQ(validate("second", {"--baseline", path("baseline.json"), "--history", path("nights")}).exit_code,
+            0);
+  EXPECT_EQ(ddem({"compare", path("second"), path("first")}).exit_code, 0);
+
+  // A wave speed that is 2 % of the band better in the baseline than here.
+  Json baseline = read_json(in_folder("baseline.json"));
+  Json& entry = baseline["metrics"]["case/small/stiffness_ratio=0.3/density=1000 | wave_speed"];
+  const Json summary = read_json(in_folder("first") / "summary.json");
+  entry["noise"] = 0.0;
+  for (const Json& c : summary["cases"]) {
+    if (c["id"] == "case/small/stiffness_ratio=0.3/density=1000") entry["value"] = c["criteria"][0]["target"];
+  }
+  write("baseline.json", to_text(baseline));
+  const auto worse = validate("third", {"--baseline", path("baseline.json"), "--history", path("nights")});
+  EXPECT_EQ(worse.exit_code, 1);
+  EXPECT_THAT(worse.standard_output, HasSubstr("REGRESSED: case/small/stiffness_ratio=0.3/density=1000"));
+  EXPECT_EQ(ddem({"compare", path("first"), path("baseline.json")}).exit_code, 1);
+
+  const auto history = ddem({"history", path("nights"), "--all"});
+  EXPECT_EQ(history.exit_code, 0);
+  EXPECT_THAT(history.standard_output, HasSubstr("3 nights"));
+  EXPECT_EQ(ddem({"history", path("nights"), "--regressions"}).exit_code, 1);
+  EXPECT_EQ(ddem({"history", path("mistyped")}).exit_code, 2);
+}
+
+TEST_F(Nightly, CampaignFilesListEveryProblem) {
+  write("campaign.toml", R"([[case]]
+id = "small"
+scene = "scene.toml"
+[case.matrix]
+"contact.stiffness_ratio" = [0.1, 7.0]
+stiffness = [1]
+[[case.criterion]]
+metric = "statics.p_velocity"
+upper = nan
+[[case.criterion]]
+metric = "wave_speed"
+lower = 2.0
+upper = 1.0
+derivation = "no"
+[[case]]
+id = "a/b"
+scene = "nowhere.toml"
+colour = "red"
+[[cases]]
+id = "x"
+)");
+  const auto run = validate("night");
+  EXPECT_EQ(run.exit_code, 2);
+  for (const char* part :
+       {":6: case.matrix.stiffness", ":8: case.criterion.metric", ":9: case.criterion.upper",
+        ":10: case.criterion.lower", "nothing would pass", "case.id = a/b", "nowhere.toml",
+        ":18: case.colour", "cases: unknown table", "case.criterion: missing"}) {
+    EXPECT_THAT(run.standard_error, HasSubstr(part));
+  }
+  EXPECT_FALSE(std::filesystem::exists(in_folder("night")));
+  write("campaign.toml", replaced(kCampaign, "0.5]", "-7.0]"));
+  EXPECT_THAT(validate("night").standard_error, HasSubstr("contact.stiffness_ratio = -7"));
+}
+
+}  // namespace
+}  // namespace ddem::harness::test
