@@ -29,7 +29,7 @@ std::vector<double> edges_of(std::vector<double> centres, Scale scale) {
 /// 0 .. 1 from one end of the colour bar to the other; NaN: no colour.
 double fraction_of(const HeatMap& map, double value) {
   const auto [lower, upper] = *map.value_axis.limits;
-  const auto decades = [&](double v) { return std::log(v / lower) / std::log(upper / lower); };
+  const auto decades = [lower = lower, upper = upper](double v) { return std::log(v / lower) / std::log(upper / lower); };
   if (!std::isfinite(value)) return std::nan("");
   switch (map.scale) {
     case ColorScale::linear: return std::clamp((value - lower) / (upper - lower), 0.0, 1.0);

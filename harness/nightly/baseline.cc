@@ -176,11 +176,11 @@ std::vector<Comparison> compare(std::vector<Verdict>& verdicts, const Baseline& 
                     v.reason.empty() ? "" : ", ", metric);
     comparisons.push_back({id, metric, b.unit, State::skipped, b.value, kNone, b.noise});
   }
-  for (auto& [id, v] : absent) {
+  for (auto& entry : absent) {
+    Verdict& v = entry.second;
     // A case that was run has lost a metric: it keeps its own verdict.
-    if (std::any_of(verdicts.begin(), verdicts.end(),
-                    [&](const Verdict& w) { return w.case_id == v.case_id; }))
-      v.case_id += " (baseline)";
+    const auto same = [&](const Verdict& w) { return w.case_id == v.case_id; };
+    if (std::any_of(verdicts.begin(), verdicts.end(), same)) v.case_id += " (baseline)";
     verdicts.push_back(std::move(v));
   }
   return comparisons;
