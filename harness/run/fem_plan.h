@@ -19,6 +19,9 @@ struct FemPlan {
 /// Throws InputError for a load that has no continuum counterpart (state files) and for missing material.
 FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli);
 
+/// Throws InputError where the continuum would be exact in time, which snapshots of all nodes (FemCase::snapshots) are not.
+void check_snapshots(const Scene& scene);
+
 /// Whether [continuum] leaves nothing to the discs, so that plan_fem needs no moduli.
 bool continuum_stands_alone(const Scene& scene);
 
