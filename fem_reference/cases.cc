@@ -316,6 +316,10 @@ StripCase read_case(const Json& json, std::size_t index, std::set<std::string>& 
     strip.receivers = read_receivers(*receivers, strip, table.key("receivers"), problems);
   }
   strip.sample_every = table.count(table.optional("sample_every"), "sample_every", 1'000'000'000);
+  if (const Json* snapshots = table.optional("snapshots")) strip.snapshots = table.count(snapshots, "snapshots", 10'000);
+  if (strip.snapshots > 0 && strip.time.integrator == Integrator::exact) {
+    table.problem("snapshots need the integrator \"verlet\": only receivers are exact in time");
+  }
   table.finish();
   return strip;
 }

@@ -88,6 +88,7 @@ struct StripCase {
   TimeSpan time;
   Receivers receivers;
   std::uint64_t sample_every = 1;  ///< steps between samples
+  std::uint64_t snapshots = 0;     ///< of all nodes at equal intervals, the last at the end; with verlet alone
 };
 
 /// Throws CaseError listing every problem: unknown and missing keys, wrong types, impossible values.

@@ -8,6 +8,7 @@
 #include "fem_reference/march.h"
 #include "fem_reference/receivers.h"
 #include "fem_reference/sampling.h"
+#include "fem_reference/snapshots.h"
 
 namespace ddem::fem {
 namespace {
@@ -62,6 +63,7 @@ void march_verlet(const StripProblem& problem, CaseResult& result) {
   result.time.push_back(0.0);
   result.signals.resize(samples * values);
   receivers.evaluate(leapfrog.displacement(), result.signals.data());
+  SnapshotRecorder snapshots(strip, model, steps, result.fields);
   std::size_t good_samples = 1;
   for (std::uint64_t step = 1; step <= steps; ++step) {
     double* row = step % strip.sample_every == 0 ? &result.signals[result.time.size() * values] : nullptr;
@@ -79,12 +81,14 @@ void march_verlet(const StripProblem& problem, CaseResult& result) {
       result.time.push_back(leapfrog.time());
     }
     audit.watch(leapfrog);
+    snapshots.watch(leapfrog);
     if (step % steps_between_checks != 0 && step != steps) continue;
     result.steps = step;
     if (!within(model, leapfrog.displacement(), limit)) {
       result.status = fmt::format("unstable: step {}", step);
       result.time.resize(good_samples);
       result.signals.resize(good_samples * values);
+      result.fields = {};
       if (model.processes) model.processes->sum(result.signals);
       return;
     }

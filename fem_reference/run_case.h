@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "fem_reference/cases.h"
 #include "dem/core/team.h"
+#include "fem_reference/cases.h"
+#include "fem_reference/fields.h"
 #include "fem_reference/strip_model.h"
 
 namespace ddem::fem {
@@ -15,6 +16,7 @@ namespace ddem::fem {
 struct CaseResult {
   std::vector<double> time;     ///< of the n samples, s
   std::vector<double> signals;  ///< n x receiver_values(model), m
+  Fields fields;                ///< empty without snapshots
   std::uint64_t dofs = 0;       ///< two a node, fixed ones included, periodic ones once
   std::uint64_t elements = 0;
   double critical_time_step = 0.0, time_step = 0.0;  ///< s

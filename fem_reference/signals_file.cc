@@ -50,13 +50,31 @@ Handle space(const std::vector<hsize_t>& shape) {
              : Handle(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
 }
 
-void write_dataset(hid_t group, const char* name, const std::vector<hsize_t>& shape,
-                   std::span<const double> data) {
+// Of `type` in memory and in the file.
+void write_array(hid_t group, const char* name, const std::vector<hsize_t>& shape, hid_t type, const void* data) {
   const Handle extent = space(shape);
-  Handle dataset(H5Dcreate2(group, name, H5T_IEEE_F64LE, extent, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                 H5Dclose);
-  if (!data.empty()) check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()));
+  Handle dataset(H5Dcreate2(group, name, type, extent, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  if (H5Sget_simple_extent_npoints(extent) > 0) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
   dataset.close();
+}
+
+void write_dataset(hid_t group, const char* name, const std::vector<hsize_t>& shape, std::span<const double> data) {
+  write_array(group, name, shape, H5T_NATIVE_DOUBLE, data.data());
+}
+
+void write_fields(hid_t parent, const Fields& fields) {
+  Handle group(H5Gcreate2(parent, "fields", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  const hsize_t points = fields.mesh.x.size(), snapshots = fields.time.size();
+  write_dataset(group, "x", {points}, fields.mesh.x);
+  write_dataset(group, "y", {points}, fields.mesh.y);
+  write_array(group, "quadrilaterals", {fields.mesh.quadrilaterals.size(), 4}, H5T_NATIVE_UINT32,
+              fields.mesh.quadrilaterals.data());
+  write_dataset(group, "time", {snapshots}, fields.time);
+  write_dataset(group, "displacement_x", {snapshots, points}, fields.displacement_x);
+  write_dataset(group, "displacement_y", {snapshots, points}, fields.displacement_y);
+  write_dataset(group, "velocity_x", {snapshots, points}, fields.velocity_x);
+  write_dataset(group, "velocity_y", {snapshots, points}, fields.velocity_y);
+  group.close();
 }
 
 void write_attribute(hid_t object, const char* name, hid_t stored, hid_t native,
@@ -147,6 +165,7 @@ void SignalsFile::write(const StripCase& strip, const CaseResult& result) {
   };
   write_dataset(group, "points", {samples, points, 2}, columns(0, points));
   write_dataset(group, "sections", {samples, sections, 2}, columns(points, sections));
+  if (!result.fields.time.empty()) write_fields(group, result.fields);
   std::array<std::uint64_t, 2> elements{strip.elements[0], strip.elements[1]};
   if (!strip.mesh.empty()) elements = {result.elements, 1};
   write_attribute(group, "elements", H5T_STD_U64LE, H5T_NATIVE_UINT64, {2}, elements.data());

@@ -1,6 +1,8 @@
 #pragma once
 // The signals file: HDF5, one group a case.
 //   time (n), points (n x npoints x 2), sections (n x nsections x 2): doubles, SI units
+//   fields, a group, only of cases with snapshots: x, y (points), quadrilaterals (count x 4, of points, anticlockwise),
+//   time (snapshots), displacement_x, displacement_y, velocity_x, velocity_y (snapshots x points)
 //   attributes of the group: degree, elements (2; of a user's mesh: all, and 1), element_count, dofs, steps: integers; critical_time_step, time_step,
 //   sample_interval, solve_seconds, energy_drift (only if it could be measured): doubles; status: text
 //   attributes of the file: schema = 1, program: text

@@ -107,14 +107,19 @@ void keep_first_of(std::size_t count, std::vector<std::array<double, 4>>& values
   values.resize(values.size() / count);
 }
 
-ElementMesh make_elements(const Nodes& nodes, double hx, double hy) {
-  const auto& fe = dynamic_cast<const dealii::FE_Q<2>&>(nodes.dofs.get_fe());
-  const std::vector<unsigned> lexicographic = fe.get_poly_space_numbering_inverse();
-  std::vector<Cell> cells = own_cells(nodes.dofs);
+// This process's elements in the order of the model.
+std::vector<Cell> sorted_cells(const dealii::DoFHandler<2>& dofs) {
+  std::vector<Cell> cells = own_cells(dofs);
   const auto rank = [](const Cell& cell) {
     return std::pair(std::llround(cell->center()[0] * 2.0), std::llround(cell->center()[1] * 2.0));
   };
   std::sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) { return rank(a) < rank(b); });
+  return cells;
+}
+
+ElementMesh make_elements(const Nodes& nodes, const std::vector<Cell>& cells, double hx, double hy) {
+  const auto& fe = dynamic_cast<const dealii::FE_Q<2>&>(nodes.dofs.get_fe());
+  const std::vector<unsigned> lexicographic = fe.get_poly_space_numbering_inverse();
   const GaussLobatto rule = gauss_lobatto(static_cast<int>(fe.degree));
   bool affine = true;
   ElementMesh mesh;
@@ -230,6 +235,7 @@ StripModel StripModeller::model(const StripCase& strip) {
   std::unique_ptr<dealii::Triangulation<2>> shared;
   if (several_processes()) {
     if (!strip.mesh.empty()) throw CaseError(strip.mesh.string() + ": a mesh from a file runs in one process");
+    if (strip.snapshots > 0) throw CaseError("case \"" + strip.id + "\", snapshots: need one process; run ddem-fem without mpirun");
     shared = distribute(*grid.triangulation, strip.periodic);
   }
   dealii::DoFHandler<2> dofs(shared ? *shared : *grid.triangulation);
@@ -238,7 +244,14 @@ StripModel StripModeller::model(const StripCase& strip) {
 
   const double hx = strip.length / grid.length, hy = strip.width / grid.width;
   StripModel model;
-  model.mesh = make_elements(nodes, hx, hy);
+  const std::vector<Cell> cells = sorted_cells(dofs);
+  model.mesh = make_elements(nodes, cells, hx, hy);
+  if (strip.snapshots > 0) {
+    for (const Cell& cell : cells) {
+      auto& corners = model.corners.emplace_back();
+      for (unsigned k = 0; k < 4; ++k) corners[k] = {cell->vertex(k)[0] * hx, cell->vertex(k)[1] * hy};
+    }
+  }
   model.left_nodes = nodes_of_edge(nodes, meshes::left_id);
   model.right_nodes = nodes_of_edge(nodes, meshes::right_id);
   for (const auto& place : nodes.place) {

@@ -2,6 +2,7 @@
 // From a case to what the kernel needs, by gmsh and deal.II: nodes, elements, edges, receivers. This header
 // and everything that uses it know no deal.II.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -16,6 +17,9 @@ namespace ddem::fem {
 struct StripModel {
   ElementMesh mesh;       ///< nodes ordered along x first; periodic nodes merged
   std::vector<double> x, y;  ///< of each node, m
+  /// Of each element, m, (xi, eta) = (0, 0), (1, 0), (0, 1), (1, 1): an element at the upper of two periodic edges has
+  /// its corners there. Only for cases with snapshots.
+  std::vector<std::array<std::array<double, 2>, 4>> corners;
   std::vector<std::uint32_t> left_nodes, right_nodes;
   std::vector<NodeWeights> points;    ///< value at each point of the receivers
   std::vector<NodeWeights> sections;  ///< average over the height at each section, exact for the elements

@@ -127,6 +127,11 @@ double Sin2::operator()(double time) const {
   return sine * sine;
 }
 
+double Sin2::rate(double time) const {
+  if (time <= 0.0 || time >= duration) return 0.0;
+  return pi / duration * std::sin(2.0 * pi * time / duration);
+}
+
 double largest_step_for(const Sin2& pulse) {
   return largest_alpha * pulse.duration / pi;
 }

@@ -27,6 +27,7 @@ struct Sin2 {
   double duration = 0.0;  ///< s
 
   double operator()(double time) const;
+  double rate(double time) const;  ///< g'(t), 1/s
 };
 
 /// Steps up to this one can resolve the pulse; see drive_coefficients.

@@ -43,6 +43,15 @@ void Leapfrog::step(const std::function<void(int)>& look) {
   ++steps_done_;
 }
 
+std::vector<double> Leapfrog::velocity() const {
+  std::vector<double> velocity = v_;
+  if (steps_done_ == 0) return velocity;
+  std::vector<double> force(u_.size(), 0.0);
+  stiffness_.apply(u_, force);
+  for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] -= 0.5 * time_step_ * (inverse_mass_[k] * force[k]);
+  return velocity;
+}
+
 double Leapfrog::energy() const {
   // force_ still holds K u_n. Compensated (Neumaier): the drift to be seen is at the level of round-off.
   Processes* processes = stiffness_.processes();

@@ -32,6 +32,9 @@ class Leapfrog {
   double time() const { return static_cast<double>(steps_done_) * time_step_; }
   double time_step() const { return time_step_; }
   std::span<const double> displacement() const { return u_; }
+  /// At time(), as the displacement: v_n = v_{n-1/2} - dt/2 M^-1 K u_n, second order; 0 for what is prescribed. Takes
+  /// the time of a step.
+  std::vector<double> velocity() const;
   /// To prescribe a degree of freedom of inverse mass 0 at the new time, after step().
   void prescribe(std::size_t degree_of_freedom, double value) { u_[degree_of_freedom] = value; }
 

@@ -1,11 +1,15 @@
 // ddem fem SCENE.toml
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "harness/cli/commands.h"
+#include "harness/cli/fem_fields.h"
 #include "harness/cli/output.h"
 #include "harness/cli/scene_argument.h"
+#include "harness/cli/xdmf.h"
+#include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/model/load.h"
 #include "harness/run/run_json.h"
@@ -15,6 +19,7 @@ namespace {
 
 struct Options {
   std::string scene, hdf5, csv;
+  int snapshots = 0;
   bool json = false;
 };
 
@@ -33,10 +38,13 @@ void print_summary(const FemPlan& plan, const FemResult& r, const std::optional<
 
 int run(const Options& o) {
   const Scene scene = load_scene(o.scene, Purpose::continuum);
-  check_outputs({o.hdf5, o.csv}, scene);
+  const std::string xdmf = o.snapshots > 0 ? xdmf_path(o.hdf5).string() : std::string();
+  check_outputs({o.hdf5, o.csv, xdmf}, scene);
+  if (o.snapshots > 0) check_snapshots(scene);
   std::optional<SceneModuli> moduli;
   if (!continuum_stands_alone(scene)) moduli = scene_moduli(scene);
-  const FemPlan plan = plan_fem(scene, moduli);
+  FemPlan plan = plan_fem(scene, moduli);
+  plan.fem.snapshots = o.snapshots;
   const FemResult result = run_fem(std::span(&plan.fem, 1), {}, scene.run.threads).front();
   if (result.status != "ok") throw SolverError(o.scene + ": ddem-fem: " + result.status);
 
@@ -50,7 +58,10 @@ int run(const Options& o) {
   const auto& ux = plan.sections ? result.section_ux : result.point_ux;
   const auto& uy = plan.sections ? result.section_uy : result.point_uy;
   for (std::size_t p = 0; p < ux.size(); ++p) add_probe(table, "p" + std::to_string(p), ux[p], uy[p], nullptr);
-  write_outputs(o.hdf5, o.csv, table, scene);
+  write_outputs(o.hdf5, o.csv, table, scene, [&](Hdf5Group& root) {
+    if (!xdmf.empty()) write_fem_fields(root, result.fields);
+  });
+  if (!xdmf.empty()) write_file(xdmf, fem_xdmf_text(result.fields, std::filesystem::path(o.hdf5).filename().string()));
   if (o.json) {
     fmt::print("{}", to_text(fem_json(plan, result, measurement)));
   } else {
@@ -70,7 +81,12 @@ void add_fem_command(CLI::App& app, Action& action) {
                   "right to 1e-5 or better, and a [drive] at the edge starts no such waves: prefer it for bars.\n"
                   "Example: ddem fem shear.toml --signals shear_fem.csv");
   command->add_option("SCENE", o->scene, "scene file (TOML)")->required();
-  command->add_option("-o,--output", o->hdf5, "write signals, scene and provenance to this HDF5 file");
+  CLI::Option* output = command->add_option("-o,--output", o->hdf5, "write signals, scene and provenance to this HDF5 file");
+  command->add_option("--snapshots", o->snapshots,
+                      "displacement and velocity of all nodes at so many times, the last at the end, in FILE.h5 and, for ParaView, "
+                      "FILE.xdmf (needs integrator = \"verlet\" in [time])")
+      ->check(CLI::Range(1, 10000))
+      ->needs(output);
   command->add_option("--signals", o->csv, "write the receivers' signals to this CSV file");
   command->add_flag("--json", o->json, "print the result as JSON");
   command->callback([o, &action] { action = [o] { return run(*o); }; });

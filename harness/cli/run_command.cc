@@ -9,6 +9,7 @@
 #include "harness/cli/run_hdf5.h"
 #include "harness/cli/run_xdmf.h"
 #include "harness/cli/scene_argument.h"
+#include "harness/cli/xdmf.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/io/progress.h"

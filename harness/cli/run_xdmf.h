@@ -1,7 +1,6 @@
 #pragma once
-// A run for other programs: XDMF, which ParaView and meshio open, beside the HDF5 file.
+// A run's discs as points over time.
 
-#include <filesystem>
 #include <string>
 
 #include "harness/io/hdf5.h"
@@ -9,15 +8,12 @@
 
 namespace ddem::harness {
 
-/// FILE.xdmf beside FILE.h5.
-std::filesystem::path xdmf_path(const std::filesystem::path& hdf5);
-
 /// /points: position (discs x 3), index, and a group 0000, 0001, ... a snapshot with displacement and
 /// velocity (discs x 3), rotation, stress_xx .. strain_xy as views of /fields, which must be there: they
 /// store nothing twice.
 void write_points(Hdf5Group& root, const DemRun& run);
 
-/// The discs as points over time, with those fields, and radius for their size. `hdf5`: the file's name, in
+/// XDMF of the discs with those fields, and radius for their size. `hdf5`: the file's name, in
 /// the same folder.
 std::string xdmf_text(const DemRun& run, const std::string& hdf5);
 

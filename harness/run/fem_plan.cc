@@ -91,7 +91,19 @@ double choose_end(const Scene& scene, const FemPlan& plan) {
   return seconds;
 }
 
+/// What the scene does not write is the discs' default; the continuum is exact in time unless it asks for less.
+Integrator integrator_of(const Scene& scene) {
+  return scene.places.contains("time.integrator") ? scene.time.integrator : Integrator::exact;
+}
+
 }  // namespace
+
+void check_snapshots(const Scene& scene) {
+  if (integrator_of(scene) == Integrator::verlet) return;
+  throw InputError(scene_problem(scene, "time.integrator",
+                                 "snapshots of all nodes are not exact in time, as ddem fem is by default: the receivers' signals alone are",
+                                 "leave --snapshots out, or write integrator = \"verlet\" in [time]"));
+}
 
 bool continuum_stands_alone(const Scene& scene) {
   return scene.continuum && scene.continuum->young_modulus && scene.continuum->poisson_ratio && scene.continuum->density &&
@@ -128,9 +140,8 @@ FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, c
     if (scene.continuum->mesh) fem.mesh = std::filesystem::absolute(*scene.continuum->mesh).string();
     fem.elements = {static_cast<int>(scene.continuum->elements[0]), static_cast<int>(scene.continuum->elements[1])};
   }
-  // What the scene does not write is the discs' default; the continuum is exact in time unless it asks for less.
+  fem.integrator = integrator_of(scene);
   const auto written = [&](const char* key) { return scene.places.contains(key); };
-  if (written("time.integrator")) fem.integrator = scene.time.integrator;
   if (written("time.step") || written("time.step_fraction") || fem.integrator == Integrator::verlet) fem.step = scene.time.step;
   fem.sample_every = static_cast<int>(scene.time.sample_every);
 

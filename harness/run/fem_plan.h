@@ -20,6 +20,9 @@ struct FemPlan {
 /// `assembly`: the scene's, where the caller has it and gives the moduli, too.
 FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, const ddem::Assembly* assembly = nullptr);
 
+/// Throws InputError where the continuum would be exact in time, which snapshots of all nodes (FemCase::snapshots) are not.
+void check_snapshots(const Scene& scene);
+
 /// Whether [continuum] leaves nothing to the discs, so that plan_fem needs no moduli.
 bool continuum_stands_alone(const Scene& scene);
 

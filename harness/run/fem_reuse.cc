@@ -71,7 +71,11 @@ FemReuse share_runs(std::span<const FemCase> cases) {
   for (const FemCase& c : cases) {
     const std::vector<double> problem = numbers(c);
     std::size_t run = 0;
-    while (run < problems.size() && !(agree(problem, problems[run]) && reuse.runs[run].mesh == c.mesh)) ++run;
+    // Fields end with their own case: a case with snapshots is a run of its own.
+    const auto serves = [&](const FemCase& other, const std::vector<double>& of) {
+      return c.snapshots == 0 && other.snapshots == 0 && other.mesh == c.mesh && agree(problem, of);
+    };
+    while (run < problems.size() && !serves(reuse.runs[run], problems[run])) ++run;
     if (run == problems.size()) {
       problems.push_back(problem);
       reuse.runs.push_back(c);

@@ -25,7 +25,7 @@ struct FemReuse {
 };
 
 /// Cases are one problem where all dimensionless numbers agree to 1e-12. Leapfrog runs (integrator verlet) depend on
-/// Poisson's ratio through the time step and are shared only where it agrees.
+/// Poisson's ratio through the time step and are shared only where it agrees; cases with snapshots never are.
 FemReuse share_runs(std::span<const FemCase> cases);
 
 /// The result of `c` from that of its run: times, signals and steps rescaled, and cut where `c` ends.

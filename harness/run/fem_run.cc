@@ -62,6 +62,7 @@ Json case_json(const FemCase& c) {
          {"time", {{"integrator", c.integrator == Integrator::exact ? "exact" : "verlet"}, {"end", c.end}}},
          {"receivers", {{"points", c.points}, {"sections", c.sections}}},
          {"sample_every", c.sample_every}};
+  if (c.snapshots > 0) j["snapshots"] = c.snapshots;
   if (c.mesh.empty()) {
     j["elements"] = c.elements;
   } else {
@@ -98,6 +99,19 @@ void split(const Hdf5Array<double>& data, std::vector<std::vector<double>>& ux, 
   }
 }
 
+FemFields read_fields(const Hdf5Group& g) {
+  FemFields f;
+  f.x = g.read_doubles("x").values;
+  f.y = g.read_doubles("y").values;
+  f.quadrilaterals = g.read_ints("quadrilaterals").values;
+  f.time = g.read_doubles("time").values;
+  f.displacement_x = g.read_doubles("displacement_x").values;
+  f.displacement_y = g.read_doubles("displacement_y").values;
+  f.velocity_x = g.read_doubles("velocity_x").values;
+  f.velocity_y = g.read_doubles("velocity_y").values;
+  return f;
+}
+
 FemResult read_result(const Hdf5Group& root, const FemCase& c) {
   const Hdf5Group g = root.group(c.id);
   FemResult r;
@@ -116,6 +130,7 @@ FemResult read_result(const Hdf5Group& root, const FemCase& c) {
   r.time = g.read_doubles("time").values;
   if (!c.points.empty()) split(g.read_doubles("points"), r.point_ux, r.point_uy);
   if (!c.sections.empty()) split(g.read_doubles("sections"), r.section_ux, r.section_uy);
+  if (g.contains("fields")) r.fields = read_fields(g.group("fields"));
   return r;
 }
 

@@ -39,8 +39,17 @@ struct FemCase {
   std::variant<StepFraction, StepSeconds> step = StepFraction{1.0};
   double end = 0.0;            ///< s
   int sample_every = 1;
+  int snapshots = 0;  ///< of all nodes, the last at the end; needs verlet
   std::vector<std::array<double, 2>> points;  ///< m, from the lower left corner
   std::vector<double> sections;               ///< m, from the left end
+};
+
+/// Fields of all nodes at a few times, on elements cut into quadrilaterals between their Gauss-Lobatto nodes.
+struct FemFields {
+  std::vector<double> x, y;         ///< of each point, m, from the lower left corner; nodes of periodic edges are two points
+  std::vector<int> quadrilaterals;  ///< count x 4: points, anticlockwise
+  std::vector<double> time;         ///< of the snapshots, s
+  std::vector<double> displacement_x, displacement_y, velocity_x, velocity_y;  ///< snapshots x points, m and m/s
 };
 
 struct FemResult {
@@ -54,6 +63,7 @@ struct FemResult {
   std::vector<double> time;
   /// [receiver][sample]
   std::vector<std::vector<double>> point_ux, point_uy, section_ux, section_uy;
+  FemFields fields;  ///< empty without snapshots
 };
 
 /// Runs all cases in one process of ddem-fem, which stands beside the running program; cases that are one problem in

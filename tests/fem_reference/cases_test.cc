@@ -90,7 +90,19 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/time/end", "-1", "end"}, Bad{"/time/steps", "10", "time"}, Bad{"/time", "", "time"},
         Bad{"/receivers/points", "[[0.02, 0]]", "points"}, Bad{"/receivers/points", "[[0.01]]", "points"},
         Bad{"/receivers/points", "0.01", "points"}, Bad{"/receivers/sections", "[-0.001]", "sections"},
-        Bad{"/receivers", "", "receivers"}, Bad{"/sample_every", "0", "sample_every"}));
+        Bad{"/receivers", "", "receivers"}, Bad{"/sample_every", "0", "sample_every"},
+        Bad{"/snapshots", "0", "snapshots"}, Bad{"/snapshots", "2.5", "snapshots"},
+        Bad{"/snapshots", "10001", "snapshots"}));
+
+TEST(CaseFile, TakesSnapshotsOfTheLeapfrogAlone) {
+  Json snapshots = shear_case("snapshots");
+  EXPECT_EQ(parse_cases(case_file({snapshots})).front().snapshots, 0u);
+  snapshots["snapshots"] = 12;
+  EXPECT_EQ(parse_cases(case_file({snapshots})).front().snapshots, 12u);
+  snapshots["time"]["integrator"] = "exact";
+  const std::string what = complaint(case_file({snapshots}));
+  EXPECT_NE(what.find("case \"snapshots\": snapshots need the integrator \"verlet\""), std::string::npos) << what;
+}
 
 TEST(CaseFile, ListsAllProblemsAtOnce) {
   Json broken = shear_case("broken");

@@ -56,6 +56,17 @@ TEST(Mpi, TwoProcessesGiveTheReceiversOfOne) {
   }
 }
 
+TEST(Mpi, RefusesSnapshots) {
+  const Workplace place;
+  Json snapshots = small(shear_case("shear"), "verlet");
+  snapshots["snapshots"] = 2;
+  place.write("cases.json", case_file({snapshots}));
+  const auto outcome = place.run("cases.json -o signals.h5", DDEM_MPIRUN " -np 2 ");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("case \"shear\", snapshots: need one process"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(std::filesystem::exists(place / "signals.h5"));
+}
+
 TEST(Mpi, MistakesEndAllProcesses) {
   const Workplace place;
   place.write("cases.json", case_file({small(shear_case("shear"), "exact")}));

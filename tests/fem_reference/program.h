@@ -50,6 +50,13 @@ class SignalsReader {
     return s;
   }
 
+  /// Of a dataset, by its path in the file.
+  std::vector<double> values(const std::string& path) const {
+    std::vector<hsize_t> shape;
+    return read(path, shape);
+  }
+  bool contains(const std::string& path) const { return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0; }
+
   bool has(const std::string& id, const std::string& attribute) const {
     return H5Aexists_by_name(file_, id.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
   }
