@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "reports/number.h"
 #include "reports/text.h"
@@ -123,6 +124,9 @@ double AxisScale::pixel(double value) const {
 }
 
 AxisMarks axis_marks(const Axis& axis, Limits limits, int max_count) {
+  if (!(limits.lower < limits.upper) || !std::isfinite(limits.lower) || !std::isfinite(limits.upper)) {
+    throw std::invalid_argument(fmt::format("an axis has the limits {} .. {}", limits.lower, limits.upper));
+  }
   AxisMarks marks;
   if (axis.scale == Scale::log) {
     marks.title = axis_title(axis.label, axis.unit);
