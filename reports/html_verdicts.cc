@@ -112,10 +112,11 @@ std::vector<const Verdict*> of_state(const std::vector<const Verdict*>& sorted, 
 void append_facets(Markup& out, const std::vector<const Verdict*>& sorted) {
   std::vector<std::pair<std::string, std::vector<std::string>>> facets;
   for (const Verdict* v : sorted)
-    for (const auto& [facet, value] : v->facets) {
-      auto known = std::find_if(facets.begin(), facets.end(), [&](const auto& f) { return f.first == facet; });
-      if (known == facets.end()) known = facets.insert(facets.end(), {facet, {}});
-      if (std::find(known->second.begin(), known->second.end(), value) == known->second.end()) known->second.push_back(value);
+    for (const auto& facet : v->facets) {
+      auto known = std::find_if(facets.begin(), facets.end(), [&](const auto& f) { return f.first == facet.first; });
+      if (known == facets.end()) known = facets.insert(facets.end(), {facet.first, {}});
+      std::vector<std::string>& values = known->second;
+      if (std::find(values.begin(), values.end(), facet.second) == values.end()) values.push_back(facet.second);
     }
   for (auto& [facet, values] : facets) {
     std::sort(values.begin(), values.end());

@@ -170,6 +170,8 @@ struct Name {
   E value;
   std::string_view name;
 };
+template <class E>
+Name(E, const char*) -> Name<E>;  // Clang 14 finds none of its own for an aggregate
 
 constexpr auto names(Scale) {
   return std::array{Name{Scale::linear, "linear"}, Name{Scale::log, "log"}};
