@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "fem_reference/cases.h"
 #include "fem_reference/run_case.h"
@@ -83,8 +85,11 @@ int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arg
   } catch (const std::exception& error) {  // disk, gmsh, memory
     code = complain(machine_failed, error.what());
   }
-  // The others may be waiting for this one.
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) MPI_Abort(MPI_COMM_WORLD, code);
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) {
+    // The others may be waiting for this one. Mostly all of them come here: the first one speaks before it is ended.
+    if (!is_first) std::this_thread::sleep_for(std::chrono::seconds(2));
+    MPI_Abort(MPI_COMM_WORLD, code);
+  }
   return code;
 }
 
