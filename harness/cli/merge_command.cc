@@ -17,14 +17,9 @@ struct Options {
   std::string target, baseline, history;
 };
 
-Conclusion conclusion_of(const Options& o) {
-  Conclusion c{o.target, {}, o.history};
-  if (!o.baseline.empty()) c.baseline = nightly::read_baseline(o.baseline);
-  return c;
-}
-
 int merge(const Options& o) {
-  const Conclusion conclusion = conclusion_of(o);
+  Conclusion conclusion{o.target, {}, o.history};
+  if (!o.baseline.empty()) conclusion.baseline = nightly::read_baseline(o.baseline);
   const std::string& target = o.target;
   prepare_folder(target);
   const FolderLock lock(target);
@@ -34,12 +29,6 @@ int merge(const Options& o) {
   for (const std::string& unit : merged.missing) fmt::print(stderr, "missing: {}\n", unit);
   const PlannedCampaign campaign = PlannedCampaign::of_folder(target);
   return conclude_campaign(campaign, campaign.read(target), conclusion);
-}
-
-void add_common_options(CLI::App& command, Options& o) {
-  command.add_option("--baseline", o.baseline,
-                     "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
-  command.add_option("--history", o.history, "folder that gets one file of this run; see ddem history");
 }
 
 }  // namespace
@@ -56,7 +45,9 @@ void add_merge_command(CLI::App& app, Action& action) {
       "  ddem validate --shard 1/2 -o a; ddem validate --shard 2/2 -o b; ddem merge a b -o night");
   command->add_option("DIR", o->folders, "folders")->required()->expected(1, -1);
   command->add_option("-o,--output", o->target, "folder for what they make together")->required();
-  add_common_options(*command, *o);
+  command->add_option("--baseline", o->baseline,
+                     "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
+  command->add_option("--history", o->history, "folder that gets one file of this run; see ddem history");
   command->callback([o, &action] { action = [o] { return merge(*o); }; });
 }
 
