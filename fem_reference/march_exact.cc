@@ -66,9 +66,11 @@ Matrix march(const StripProblem& problem, const Response& response, std::size_t 
   Leapfrog leapfrog(problem.stiffness, problem.inverse_mass, {response.start, {}}, result.time_step);
   receivers.evaluate(leapfrog.displacement(), rows.data());
   EnergyAudit audit(1, count - 1);
+  double* row = nullptr;
+  const std::function<void(int)> look = [&](int thread) { receivers.evaluate_share(thread, leapfrog.displacement(), row); };
   for (std::size_t k = 1; k < count; ++k) {
-    double* row = &rows[k * receivers.values()];
-    leapfrog.step([&](int thread) { receivers.evaluate_share(thread, leapfrog.displacement(), row); });
+    row = &rows[k * receivers.values()];
+    leapfrog.step(look);
     receivers.evaluate_rest(leapfrog.displacement(), row);
     audit.watch(leapfrog);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include "fem_reference/excitation.h"
@@ -65,11 +66,13 @@ void march_verlet(const StripProblem& problem, CaseResult& result) {
   receivers.evaluate(leapfrog.displacement(), result.signals.data());
   SnapshotRecorder snapshots(strip, model, steps, result.fields);
   std::size_t good_samples = 1;
+  double* row = nullptr;  // of the sample that this step is; else null
+  const std::function<void(int)> look = [&](int thread) {
+    if (row != nullptr) receivers.evaluate_share(thread, leapfrog.displacement(), row);
+  };
   for (std::uint64_t step = 1; step <= steps; ++step) {
-    double* row = step % strip.sample_every == 0 ? &result.signals[result.time.size() * values] : nullptr;
-    leapfrog.step([&](int thread) {
-      if (row != nullptr) receivers.evaluate_share(thread, leapfrog.displacement(), row);
-    });
+    row = step % strip.sample_every == 0 ? &result.signals[result.time.size() * values] : nullptr;
+    leapfrog.step(look);
     if (strip.drive) {
       const double value = strip.drive->amplitude * motion(*strip.drive)(leapfrog.time());
       for (const std::uint32_t node : model.left_nodes) {

@@ -30,8 +30,8 @@ Team::~Team() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void Team::run(const std::function<void(int)>& job) {
-  job_ = &job;
+void Team::run_call(Call job) {
+  job_ = job;
   epoch_.fetch_add(1, std::memory_order_release);
   if (size_ > 1) epoch_.notify_all();
   take_part(0);
@@ -41,7 +41,7 @@ void Team::run(const std::function<void(int)>& job) {
 
 void Team::take_part(int thread) {
   try {
-    (*job_)(thread);
+    job_.call(job_.job, thread);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     failure_ = std::current_exception();

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -24,7 +23,10 @@ class Team {
 
   /// job(0) .. job(size - 1), one a thread; returns when all are done. What one of them throws is thrown here; a job
   /// that calls meet() must not throw.
-  void run(const std::function<void(int)>& job);
+  template <typename Job>
+  void run(const Job& job) {
+    run_call({[](const void* j, int thread) { (*static_cast<const Job*>(j))(thread); }, &job});
+  }
 
   /// Inside a job, by each thread under its number: goes on when all threads have come here.
   void meet(int thread) {
@@ -50,11 +52,17 @@ class Team {
   }
 
  private:
+  /// A reference to something that takes a thread's number: no allocation a step, as std::function would need.
+  struct Call {
+    void (*call)(const void* job, int thread) = nullptr;
+    const void* job = nullptr;
+  };
   /// Where a thread was last seen waiting; a cache line of its own.
   struct alignas(64) Place {
     std::atomic<int> core{-1};
   };
 
+  void run_call(Call job);
   void work(int thread);
   void take_part(int thread);
   void let_go(unsigned round);
@@ -62,7 +70,7 @@ class Team {
   void leave_shared_core(int thread);
 
   int size_;
-  const std::function<void(int)>* job_ = nullptr;
+  Call job_;
   std::atomic<unsigned> epoch_{0}, arrived_{0}, round_{0};
   bool over_ = false;
   std::mutex mutex_;  // guards failure_
