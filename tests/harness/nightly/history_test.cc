@@ -81,6 +81,19 @@ TEST(History, NoiseRarelyAlarms) {
   EXPECT_GE(found, 95);  // a change of eight standard deviations
 }
 
+TEST(History, TheBandIsThreeStandardDeviationsOfANight) {
+  // Steps of 1 between nights, up and down, of which two nights' deviations make each: 3 x 1.4826 / sqrt(2) = 3.145. Of equal
+  // nights one hundredth of the band's half width, 0.1.
+  const auto swinging = [](double change) {
+    return nights(21, [&](int k) { return k == 20 ? 102.0 + change : k % 2 == 0 ? 101.5 : 102.5; });
+  };
+  EXPECT_FALSE(regressed(swinging(3.145 * 0.97)));
+  EXPECT_TRUE(regressed(swinging(3.145 * 1.03)));
+  const auto still = [](double change) { return nights(21, [&](int k) { return k == 20 ? 102.0 + change : 102.0; }); };
+  EXPECT_FALSE(regressed(still(0.097)));
+  EXPECT_TRUE(regressed(still(0.103)));
+}
+
 TEST(History, WallTimeOfEqualWorkOnly) {
   std::vector<Night> all = nights(6, [](int) { return 102.0; });
   all.push_back(night(6, 102.0, 90.0));
