@@ -22,7 +22,7 @@ constexpr const char* kFooter = R"(Examples:
                                          contact parameters that give these moduli
   ddem fem scene.toml --signals s.csv    the continuum model of the same strip
 
-Exit codes: 0 done, within tolerance; 1 a verdict failed; 2 wrong use or input;
+Exit codes: 0 done, within tolerance; 1 a verdict failed, or a target is out of reach; 2 wrong use or input;
             3 a solver failed (unstable, no convergence); 4 the machine failed (disk, missing tool).)";
 
 int run(int argc, char** argv) {
