@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "dem/core/time_filter.h"
+#include "dem/spectra/strain_polynomial.h"
 
 namespace ddem {
 namespace {
@@ -239,6 +240,9 @@ SimulationResult simulate_exact(const Assembly& assembly, const SimulationInput&
                                 const Sampling& sampling) {
   check(assembly, given, sampling);
   SimulationInput in = given;
+  if (in.deformation.active() && in.relaxations.empty()) {
+    in.relaxations = strain_relaxations(assembly, in.contact, in.deformation);  // once for all marches
+  }
   give_way_to_drive(in, assembly.size());
   std::vector<Response> parts = responses(assembly, in);
   const bool watched_apart =

@@ -45,6 +45,9 @@ enum class ContactWatch {
 struct SimulationInput {
   ContactParameters contact;
   DeformationParameters deformation;
+  /// Of the polynomial's implicit strains, strain_relaxations(), where the caller knows them: finding them takes as long
+  /// as hundreds of steps. Else empty.
+  std::vector<double> relaxations;
   HeldDofs held;
   InitialState initial;
   std::optional<EdgeDrive> drive;

@@ -114,7 +114,7 @@ void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
   } else if (deformation.solver == StrainSolver::conjugate_gradients) {
     gradients_.emplace(padded_, c, deformation.tolerance);
   } else {
-    relaxations_ = strain_relaxations(strain_spectrum(a, input.contact, deformation), deformation.tolerance);
+    relaxations_ = input.relaxations.empty() ? strain_relaxations(a, input.contact, deformation) : input.relaxations;
     strain_stages_ = static_cast<int>(relaxations_.size());
   }
 }

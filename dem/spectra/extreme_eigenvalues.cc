@@ -15,7 +15,7 @@ constexpr Eigen::Index kMostIterations = 2000;
 
 /// The residual asked for, over the eigenvalue: an eigenvalue is off by less than it, and by about its square where the
 /// next one is apart. The largest ones of a large assembly lie so close together that 1e-5 would take minutes.
-double residual_of(Eigen::Index unknowns) { return unknowns <= 50000 ? 1e-5 : 1e-3; }
+double residual_of(Eigen::Index unknowns) { return unknowns <= 20000 ? 1e-5 : 1e-3; }
 
 // Up to so many unknowns the matrix itself is solved. Lanczos breaks down on operators of small rank, as those of a few
 // bonded discs are, and Spectra then answers with a wrong number; beyond, the rank exceeds the iteration's 40 vectors.

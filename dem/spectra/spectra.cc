@@ -48,7 +48,7 @@ double largest_implicit_frequency(const Assembly& a, const ContactParameters& co
                                   const HeldDofs& held) {
   if (deformation.solver != StrainSolver::polynomial) return largest_converged_frequency(a, contact, deformation, held);
   const Operators op = make_operators(a, contact, deformation);
-  const auto relaxations = strain_relaxations(strain_spectrum(a, contact, deformation), deformation.tolerance);
+  const auto relaxations = strain_relaxations(a, contact, deformation);
   return largest_frequency_of(op, SchemeStiffness::polynomial(op, relaxations), held, "critical time step with implicit strains");
 }
 

@@ -10,7 +10,7 @@
 namespace ddem {
 
 /// Largest angular frequency of the bonded assembly with rigid discs, rad/s: omega_max^2 = lambda_max(M^-1 C^T K C).
-/// The critical step of leapfrog is 2 / omega_max. Relative accuracy 1e-6 (above 50000 unknowns 5e-4). Throws std::runtime_error if Lanczos fails.
+/// The critical step of leapfrog is 2 / omega_max. Relative accuracy 1e-6 (above 20000 unknowns 5e-4). Throws std::runtime_error if Lanczos fails.
 double largest_frequency(const Assembly& assembly, const ContactParameters& contact, const HeldDofs& held);
 
 /// The same with converged strains, below that of rigid discs. For N with shear stiffness, which has no energy, the

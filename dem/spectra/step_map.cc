@@ -1,6 +1,7 @@
 #include "dem/spectra/step_map.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
@@ -93,12 +94,22 @@ MatrixXd lagged_map(const Operators& op, const DeformationParameters& d, double 
   return map;
 }
 
+/// By inverse iteration: the factor is known to round-off, so that twice is enough.
+Eigen::VectorXcd eigenvector_of(const MatrixXd& map, const Complex& factor) {
+  const double off = 1e-12 * map.cwiseAbs().maxCoeff();  // at the very factor there is no inverse
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(map.cast<Complex>() - (factor + off) * Eigen::MatrixXcd::Identity(map.rows(), map.cols()));
+  Eigen::VectorXcd x = Eigen::VectorXcd::LinSpaced(map.rows(), 1.0, 2.0);  // has a share in every mode but by accident
+  for (int k = 0; k < 2; ++k) x = inverse.solve(x).normalized();
+  return x;
+}
+
 StepMode lagged_mode(const Operators& op, const DeformationParameters& deformation, double dt) {
-  const Eigen::EigenSolver<MatrixXd> solver(lagged_map(op, deformation, dt));
+  const MatrixXd map = lagged_map(op, deformation, dt);
+  const Eigen::EigenSolver<MatrixXd> solver(map, false);
   require_success(solver.info());
   Leader leader;
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) leader.look(solver.eigenvalues()[k], k);
-  return {leader.factor(), scaled_to_one(solver.eigenvectors().col(leader.column()).head(op.overlap.cols()))};
+  return {leader.factor(), scaled_to_one(eigenvector_of(map, leader.factor()).head(op.overlap.cols()))};
 }
 
 }  // namespace

@@ -125,4 +125,9 @@ std::vector<double> strain_relaxations(const StrainSpectrum& s, double tolerance
   return zeros;
 }
 
+std::vector<double> strain_relaxations(const Assembly& a, const ContactParameters& contact,
+                                       const DeformationParameters& deformation) {
+  return strain_relaxations(strain_spectrum(a, contact, deformation), deformation.tolerance);
+}
+
 }  // namespace ddem

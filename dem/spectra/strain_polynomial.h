@@ -24,5 +24,8 @@ inline constexpr double kLargestShortWaveError = 0.01;
 /// Throws std::invalid_argument unless the radius is finite and not negative and tolerance in (0, 0.5) (below that the
 /// effective stiffness stays positive), and where it would take more than 2000 terms.
 std::vector<double> strain_relaxations(const StrainSpectrum& spectrum, double tolerance);
+/// The same for the spectrum of an assembly, at the tolerance of `deformation`.
+std::vector<double> strain_relaxations(const Assembly& assembly, const ContactParameters& contact,
+                                       const DeformationParameters& deformation);
 
 }  // namespace ddem

@@ -21,7 +21,7 @@ struct StrainSpectrum {
   std::vector<ModeShares> uniform;  ///< dilation, and both shears
 };
 
-/// By Lanczos' iteration: the radius to 1e-5 or better (1e-3 above 50000 unknowns), the shares by twelve-point Gauss
+/// By Lanczos' iteration: the radius to 1e-5 or better (1e-3 above 20000 unknowns), the shares by twelve-point Gauss
 /// quadrature of each deformation's own spectral measure. Throws std::runtime_error if the iteration fails.
 StrainSpectrum strain_spectrum(const Assembly& assembly, const ContactParameters& contact,
                                const DeformationParameters& deformation);

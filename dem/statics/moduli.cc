@@ -6,8 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "dem/statics/static_solver.h"
-
 namespace ddem {
 namespace {
 
@@ -98,7 +96,10 @@ class StripGauge {
   Section section_{};
 };
 
-HeldDofs hold_ends(const Packing& p, double edge_band, bool hold_y_and_theta) {
+/// Between periodic edges the discs of both ends can do nothing of their own; between free ones they slide along the grips.
+HeldDofs gripped_ends(const Assembly& a, double edge_band) {
+  const Packing& p = a.packing;
+  const bool hold_y_and_theta = p.period.y > 0.0;
   HeldDofs held;
   held.x.assign(p.size(), 0);
   if (hold_y_and_theta) {
@@ -152,22 +153,20 @@ void couple_as_exact_rows(PlaneStiffness& c) {
   c(1, 2) = c(2, 1);
 }
 
-/// C = stress strain^-1 over three loads, dC = (d stress - C d strain) strain^-1. The affine shear moves u_x by y/2 and u_y
+/// Rates of the operators, one a parameter. C = stress strain^-1 over three loads, dC = (d stress - C d strain) strain^-1. The affine shear moves u_x by y/2 and u_y
 /// by x/2; the fluctuation adds to the part along x.
-StiffnessRates homogenise(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
-                          const HeldDofs& held, const StripGauge* gauge, std::span<const Parameter> parameters) {
-  const StaticSolver solver(a, contact, deformation, held);
+StiffnessRates homogenise(const Assembly& a, const StaticSolver& solver, const StripGauge* gauge,
+                          std::span<const OperatorRates> operator_rate) {
   const Operators& op = solver.operators();
-  std::vector<OperatorRates> operator_rate;
-  for (const Parameter p : parameters) operator_rate.push_back(operator_rates(a, op, contact, deformation, p));
+  const std::size_t parameters = operator_rate.size();
   Eigen::Matrix3d strain = Eigen::Matrix3d::Identity(), stress;
-  std::vector<Eigen::Matrix3d> strain_rate(parameters.size()), stress_rate(parameters.size());
+  std::vector<Eigen::Matrix3d> strain_rate(parameters), stress_rate(parameters);
   for (int k = 0; k < 3; ++k) {
     const StaticState state = solver.solve(kUnitStrains[k]);
     const Response r = response(a, op, state, gauge);
     strain.col(k) += r.strain;
     stress.col(k) = r.stress;
-    for (std::size_t p = 0; p < parameters.size(); ++p) {
+    for (std::size_t p = 0; p < parameters; ++p) {
       const Response rate = response(a, op, solver.rate(state, operator_rate[p]), gauge);
       strain_rate[p].col(k) = rate.strain;
       stress_rate[p].col(k) = rate.stress;
@@ -175,7 +174,7 @@ StiffnessRates homogenise(const Assembly& a, const ContactParameters& contact, c
   }
   const Eigen::Matrix3d inverse = strain.inverse();
   StiffnessRates out{stress * inverse, {}};
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
+  for (std::size_t p = 0; p < parameters; ++p) {
     out.rates.push_back((stress_rate[p] - out.stiffness * strain_rate[p]) * inverse);
     if (gauge != nullptr) couple_as_exact_rows(out.rates.back());
   }
@@ -193,10 +192,13 @@ IsotropicModuli isotropic_part(const PlaneStiffness& c) {
 StiffnessRates homogenise_with_rates(const Assembly& a, const ContactParameters& contact,
                                      const DeformationParameters& deformation, double edge_band,
                                      std::span<const Parameter> parameters) {
-  if (a.packing.period.x > 0.0 && a.packing.period.y > 0.0) return homogenise(a, contact, deformation, {}, nullptr, parameters);
-  const HeldDofs held = hold_ends(a.packing, edge_band, true);
+  const bool cell = a.packing.period.x > 0.0 && a.packing.period.y > 0.0;
+  const StaticSolver solver(a, contact, deformation, cell ? HeldDofs{} : gripped_ends(a, edge_band));
+  std::vector<OperatorRates> rates;
+  for (const Parameter p : parameters) rates.push_back(operator_rates(a, solver.operators(), contact, deformation, p));
+  if (cell) return homogenise(a, solver, nullptr, rates);
   const StripGauge gauge(a.packing);
-  return homogenise(a, contact, deformation, held, &gauge, parameters);
+  return homogenise(a, solver, &gauge, rates);
 }
 
 PlaneStiffness homogenise_cell(const Assembly& a, const ContactParameters& contact,
@@ -204,28 +206,49 @@ PlaneStiffness homogenise_cell(const Assembly& a, const ContactParameters& conta
   if (a.packing.period.x <= 0.0 || a.packing.period.y <= 0.0) {
     throw std::invalid_argument("homogenisation of a cell needs periods in x and y");
   }
-  return homogenise(a, contact, deformation, {}, nullptr, {}).stiffness;
-}
-
-PlaneStiffness homogenise_strip(const Assembly& a, const ContactParameters& contact,
-                                const DeformationParameters& deformation, double edge_band) {
-  const HeldDofs held = hold_ends(a.packing, edge_band, true);
-  const StripGauge gauge(a.packing);
-  return homogenise(a, contact, deformation, held, &gauge, {}).stiffness;
+  return homogenise_with_rates(a, contact, deformation, 0.0, {}).stiffness;
 }
 
 double StripTension::bar_velocity() const { return std::sqrt(axial_stiffness / mass_per_length); }
 
+GrippedStrip::GrippedStrip(const Assembly& a, const ContactParameters& contact,
+                           const DeformationParameters& deformation, double edge_band)
+    : assembly_(a), edge_band_(edge_band), solver_(a, contact, deformation, gripped_ends(a, edge_band)) {}
+
+PlaneStiffness GrippedStrip::stiffness() const {
+  if (!(assembly_.packing.period.y > 0.0)) throw std::invalid_argument("homogenisation of a strip needs a period in y");
+  const StripGauge gauge(assembly_.packing);
+  return homogenise(assembly_, solver_, &gauge, {}).stiffness;
+}
+
+StripTension GrippedStrip::tension() const {
+  if (assembly_.packing.period.y > 0.0) throw std::invalid_argument("the tension of a strip needs free edges");
+  const StripGauge gauge(assembly_.packing);
+  const int dofs = solver_.operators().dofs_per_disc;
+  const StaticState state = solver_.solve({1, 0, 0});
+  const double strain = 1.0 + gauge.slope(state, dofs, 0), area = assembly_.packing.width * assembly_.thickness;
+  const double force = mean_stress(assembly_, solver_.operators(), state, gauge.section())[0] * area;
+  return {force / strain, bulk_density(assembly_) * area,
+          -lateral_strain(assembly_.packing, state, dofs, gauge.section()) / strain};
+}
+
+StaticSections GrippedStrip::sections(const std::vector<SectionDiscs>& sections) const {
+  const int dofs = solver_.operators().dofs_per_disc;
+  std::vector<StaticState> loads;
+  for (int component = 0; component < (assembly_.packing.period.y > 0.0 ? 2 : 1); ++component) {
+    loads.push_back(solver_.solve_moved(right_end_moved(assembly_.packing, edge_band_, component, dofs)));
+  }
+  return sections_under(assembly_, solver_.operators(), loads, sections);
+}
+
+PlaneStiffness homogenise_strip(const Assembly& a, const ContactParameters& contact,
+                                const DeformationParameters& deformation, double edge_band) {
+  return GrippedStrip(a, contact, deformation, edge_band).stiffness();
+}
+
 StripTension pull_strip(const Assembly& a, const ContactParameters& contact,
                         const DeformationParameters& deformation, double edge_band) {
-  const StaticSolver solver(a, contact, deformation, hold_ends(a.packing, edge_band, false));
-  const StripGauge gauge(a.packing);
-  const int dofs = solver.operators().dofs_per_disc;
-  const StaticState state = solver.solve({1, 0, 0});
-  const double strain = 1.0 + gauge.slope(state, dofs, 0);
-  const double force = mean_stress(a, solver.operators(), state, gauge.section())[0] * a.packing.width * a.thickness;
-  return {force / strain, bulk_density(a) * a.packing.width * a.thickness,
-          -lateral_strain(a.packing, state, dofs, gauge.section()) / strain};
+  return GrippedStrip(a, contact, deformation, edge_band).tension();
 }
 
 DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double bulk_density) {

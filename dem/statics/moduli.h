@@ -9,6 +9,7 @@
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
 #include "dem/statics/operator_rates.h"
+#include "dem/statics/sections.h"
 
 namespace ddem {
 
@@ -31,30 +32,54 @@ IsotropicModuli isotropic_part(const PlaneStiffness& c);
 PlaneStiffness homogenise_cell(const Assembly& assembly, const ContactParameters& contact,
                                const DeformationParameters& deformation);
 
-/// The strip periodic in y only: the discs of both end bands follow the affine motion, strain and stress are measured
-/// between two inner sections, away from the ends.
-PlaneStiffness homogenise_strip(const Assembly& assembly, const ContactParameters& contact,
-                                const DeformationParameters& deformation, double edge_band);
-
 /// A stiffness and its derivatives with respect to parameters of contacts and discs.
 struct StiffnessRates {
   PlaneStiffness stiffness;
   std::vector<PlaneStiffness> rates;  ///< one a parameter
 };
 
-/// Either of the two above, whichever the packing's periods ask for, with the derivatives: each takes three more solves by
-/// the same factorisation. Throws as they do and as operator_rates().
+/// Of a cell, or of a strip periodic in y alone (GrippedStrip::stiffness), whichever the packing's periods ask for, with the
+/// derivatives: each takes three more solves by the same factorisation. Throws as they do and as operator_rates().
 StiffnessRates homogenise_with_rates(const Assembly& assembly, const ContactParameters& contact,
                                      const DeformationParameters& deformation, double edge_band,
                                      std::span<const Parameter> parameters);
 
-/// The free strip pulled at its ends (their u_x held, u_y free), measured between two inner sections.
+/// The free strip pulled at its ends, measured between two inner sections.
 struct StripTension {
   double axial_stiffness = 0.0;      ///< EA: force over strain, N
   double mass_per_length = 0.0;      ///< kg/m
   double lateral_contraction = 0.0;  ///< -eps_yy / eps_xx
   double bar_velocity() const;       ///< sqrt(EA / mass per length): no area enters
 };
+
+/// A strip with both ends in grips (the discs within `edge_band` of the outermost centres), factorised once for all that is
+/// asked of it. Between periodic edges the grips hold u_x, u_y and rotation, between free ones u_x alone. The assembly must
+/// outlive it. Throws as StaticSolver; std::invalid_argument where the strip is too short for inner sections.
+class GrippedStrip {
+ public:
+  GrippedStrip(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation,
+               double edge_band);
+
+  const Assembly& assembly() const { return assembly_; }
+  double edge_band() const { return edge_band_; }
+  /// Periodic edges: the grips follow the affine motion, strain and stress are measured between two inner sections.
+  /// std::invalid_argument between free ones.
+  PlaneStiffness stiffness() const;
+  /// Free edges: the grips move apart. std::invalid_argument between periodic ones.
+  StripTension tension() const;
+  /// The right grip moves: see sections.h. As static_sections() but for what the grips hold, which sections a width from the
+  /// ends do not feel.
+  StaticSections sections(const std::vector<SectionDiscs>& sections) const;
+
+ private:
+  const Assembly& assembly_;
+  double edge_band_;
+  StaticSolver solver_;
+};
+
+/// Of a strip that is asked for nothing else.
+PlaneStiffness homogenise_strip(const Assembly& assembly, const ContactParameters& contact,
+                                const DeformationParameters& deformation, double edge_band);
 StripTension pull_strip(const Assembly& assembly, const ContactParameters& contact,
                         const DeformationParameters& deformation, double edge_band);
 

@@ -1,34 +1,24 @@
 #include "dem/statics/sections.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-
-#include "dem/statics/static_solver.h"
 
 namespace ddem {
 namespace {
 
 /// The ends moved against each other along x (component 0) or y (1): the left band stays, the right one moves by 1. As in
 /// a driven strip with a right end fixed in x, nothing else is held, so that no other force passes through.
-struct Pull {
+HeldDofs held_under(const Packing& p, double edge_band, int component) {
   HeldDofs held;
-  Eigen::VectorXd displacement;
-};
-
-Pull pull(const Packing& p, double edge_band, int component, int dofs_per_disc) {
-  Pull out;
-  out.displacement = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs_per_disc * p.size()));
-  std::vector<std::uint8_t>& moved = component == 0 ? out.held.x : out.held.y;
+  std::vector<std::uint8_t>& moved = component == 0 ? held.x : held.y;
   moved.assign(p.size(), 0);
   for (const int d : edge_discs(p, Edge::left, edge_band)) moved[d] = 1;
-  if (component == 1) out.held.x.assign(p.size(), 0);
-  for (const int d : edge_discs(p, Edge::right, edge_band)) {
-    moved[d] = out.held.x[d] = 1;
-    out.displacement[static_cast<Eigen::Index>(dofs_per_disc) * d + component] = 1.0;
-  }
-  return out;
+  if (component == 1) held.x.assign(p.size(), 0);
+  for (const int d : edge_discs(p, Edge::right, edge_band)) moved[d] = held.x[d] = 1;
+  return held;
 }
 
 /// Force that the part right of the plane x = cut exerts on the part left of it.
@@ -99,29 +89,47 @@ StaticSections::Speeds StaticSections::between(int from, int to) const {
   return {speed(mean - root), speed(mean + root), 0.0};
 }
 
-StaticSections static_sections(const Assembly& a, const ContactParameters& contact,
-                               const DeformationParameters& deformation, double edge_band,
-                               const std::vector<SectionDiscs>& sections) {
+Eigen::VectorXd right_end_moved(const Packing& p, double edge_band, int component, int dofs_per_disc) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs_per_disc * static_cast<Eigen::Index>(p.size()));
+  for (const int d : edge_discs(p, Edge::right, edge_band)) q[static_cast<Eigen::Index>(dofs_per_disc) * d + component] = 1.0;
+  return q;
+}
+
+StaticSections sections_under(const Assembly& a, const Operators& op, std::span<const StaticState> loads,
+                              const std::vector<SectionDiscs>& sections) {
   require_valid(sections, a.size());
   StaticSections out;
   out.periodic = a.packing.period.y > 0.0;
+  const double cut = middle(a.packing);
+  Eigen::Matrix2d forces = Eigen::Matrix2d::Identity();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(loads.size()); ++k) forces.col(k) = force_through(a, op, loads[k], cut);
+  if (loads.size() == 1) forces(1, 0) = 0.0;
+  const Eigen::Matrix2d inverse = forces.inverse();
   for (const SectionDiscs& section : sections) {
     double sum = 0.0;
     for (const int d : section) sum += a.packing.x[d];
     out.x.push_back(sum / static_cast<double>(section.size()));
     out.mass_before.push_back(moving_mass_before(a, out.x.back()));
-  }
-  const double cut = middle(a.packing);
-  const int dofs = contact.has_rotation() ? 3 : 2;
-  out.displacement.assign(sections.size(), Eigen::Matrix2d::Zero());
-  for (int k = 0; k < (out.periodic ? 2 : 1); ++k) {
-    const Pull load = pull(a.packing, edge_band, k, dofs);
-    const StaticSolver solver(a, contact, deformation, load.held);
-    const StaticState state = solver.solve_moved(load.displacement);
-    const double force = force_through(a, solver.operators(), state, cut)[k];
-    for (std::size_t n = 0; n < sections.size(); ++n) out.displacement[n].col(k) = mean_displacement(sections[n], state, dofs) / force;
+    Eigen::Matrix2d displacement = Eigen::Matrix2d::Zero();
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(loads.size()); ++k) {
+      displacement.col(k) = mean_displacement(section, loads[k], op.dofs_per_disc);
+    }
+    out.displacement.push_back(displacement * inverse);
   }
   return out;
+}
+
+StaticSections static_sections(const Assembly& a, const ContactParameters& contact,
+                               const DeformationParameters& deformation, double edge_band,
+                               const std::vector<SectionDiscs>& sections) {
+  require_valid(sections, a.size());
+  std::vector<StaticState> loads;
+  for (int k = 0; k < (a.packing.period.y > 0.0 ? 2 : 1); ++k) {
+    const StaticSolver solver(a, contact, deformation, held_under(a.packing, edge_band, k));
+    const int dofs = solver.operators().dofs_per_disc;
+    loads.push_back(solver.solve_moved(right_end_moved(a.packing, edge_band, k, dofs)));
+  }
+  return sections_under(a, make_operators(a, contact, deformation), loads, sections);
 }
 
 }  // namespace ddem

@@ -14,10 +14,12 @@
 // 1/c^2 = <m> times an eigenvalue of S, the smaller one of the wave called P, the larger one of that called S.
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
+#include "dem/statics/static_solver.h"
 
 namespace ddem {
 
@@ -47,5 +49,13 @@ struct StaticSections {
 StaticSections static_sections(const Assembly& assembly, const ContactParameters& contact,
                                const DeformationParameters& deformation, double edge_band,
                                const std::vector<SectionDiscs>& sections);
+
+/// The same of states that the caller has found: one where only the force along x counts, or two that F and the sections'
+/// displacements are made of, u = S F, whatever forces along x and y go with each. Sections as static_sections().
+StaticSections sections_under(const Assembly& assembly, const Operators& operators, std::span<const StaticState> loads,
+                              const std::vector<SectionDiscs>& sections);
+
+/// q as in Operators: the discs of the right end's band moved by 1 along x (component 0) or y (1), the others 0.
+Eigen::VectorXd right_end_moved(const Packing& packing, double edge_band, int component, int dofs_per_disc);
 
 }  // namespace ddem

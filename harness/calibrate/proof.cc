@@ -10,6 +10,7 @@
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/run/dem_run.h"
+#include "harness/run/scene_moduli.h"
 #include "harness/run/section_speeds.h"
 
 namespace ddem::harness {
@@ -47,18 +48,19 @@ double safe_step_fraction(const ddem::Assembly& a, const Scene& scene, double de
   return std::min(kStepFraction, 0.5 * *c.step / dem_critical);
 }
 
-ProofWave send(const Scene& calibrated, const ddem::Assembly& a, Wave wave, double static_speed,
+ProofWave send(const Scene& calibrated, const GrippedStrip& strip, Wave wave, double static_speed,
                double critical, double step_fraction) {
   ProofWave out;
   out.static_speed = static_speed;
   try {
+    const ddem::Assembly& a = strip.assembly();
     const Scene scene = wave_scene(calibrated, a.packing, wave, static_speed, step_fraction);
     RunOptions options;
     options.expected_speed = static_speed;
     options.critical_time_step = critical;
     options.warn = false;
     const DemRun run = run_assembly(scene, a, options);
-    const auto sections = section_speeds(scene, a, run.layout);
+    const auto sections = section_speeds(strip, run.layout);
     out.section_speed = wave == Wave::shear ? sections.s : sections.p;
     if (run.result.breakdown) {
       out.failure = describe(*run.result.breakdown, scene).what;
@@ -97,8 +99,9 @@ ProofSeed prove_seed(const Scene& scene, const SeedAssembly& fitted, bool ends) 
   const ddem::Assembly a = fitted.assembly.packing.period.x > 0.0 ? build_network(open) : fitted.assembly;
   const double critical = 2.0 / largest_frequency(a, contact, {});
   const double fraction = safe_step_fraction(a, scene, critical);
-  out.shear = send(open, a, Wave::shear, speeds.s, critical, fraction);
-  out.p = send(open, a, Wave::longitudinal, speeds.p, critical, fraction);
+  const GrippedStrip grips = gripped(open, a);
+  out.shear = send(open, grips, Wave::shear, speeds.s, critical, fraction);
+  out.p = send(open, grips, Wave::longitudinal, speeds.p, critical, fraction);
   Scene free = open;
   free.assembly.periodic = {false, false};
   const ddem::Assembly strip = build_network(free);

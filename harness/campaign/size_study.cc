@@ -81,6 +81,7 @@ struct Strips {
   double critical_time_step = 0.0;  ///< of the closed strip; the free one lacks some of its bonds, so that its own is longer
   StripTension tension = {};
   DirectionalSpeeds directional = {};
+  std::optional<GrippedStrip> grips = {};  ///< of the closed one
 };
 
 DemRun run_wave(const StripCase& c, const Strips& strips, const Scene& scene, double expected) {
@@ -105,15 +106,15 @@ void send_waves(const StripCampaign& s, SizedStrip& strip, double stiffness_rati
     const Scene scene = scene_of(scene_text(s, c, expected), id_of(c));
     const DemRun run = run_wave(c, strips, scene, expected);
     out.measured = picked_speeds(*run.measurement);
-    measure(scene, run);
+    measure(run);
   };
-  send(StripWave::shear, strips.directional.s, strip.shear, [&](const Scene& scene, const DemRun& run) {
-    const auto sections = lattice ? StaticSections::Speeds{closed_form.p, closed_form.shear, 0.0} : section_speeds(scene, run.assembly, run.layout);
+  send(StripWave::shear, strips.directional.s, strip.shear, [&](const DemRun& run) {
+    const auto sections = lattice ? StaticSections::Speeds{closed_form.p, closed_form.shear, 0.0} : section_speeds(*strips.grips, run.layout);
     strip.shear.reference = sections.s;
     strip.p.reference = sections.p;
   });
-  send(StripWave::p, strips.directional.p, strip.p, [](const Scene&, const DemRun&) {});
-  send(StripWave::bar, bar_speed, strip.bar, [&](const Scene&, const DemRun& run) {
+  send(StripWave::p, strips.directional.p, strip.p, [](const DemRun&) {});
+  send(StripWave::bar, bar_speed, strip.bar, [&](const DemRun& run) {
     strip.bar.reference = bar_speed;
     const PickedSpeeds s0 = picked_speeds(s0_measurement({bar_speed, run.assembly.packing.width, strips.tension.lateral_contraction}, run.layout, run.context));
     const auto over = [&](std::optional<double> speed) { return speed ? std::optional(*speed / bar_speed) : std::nullopt; };
@@ -195,7 +196,8 @@ void measure_strip(const StripCampaign& campaign, SizeStudy& study, std::size_t 
     for (const double ratio : study.stiffness_ratios) {
       contact.stiffness_ratio = ratio;
       strips.tension = pull_strip(strips.free, contact, {}, strips.edge_band);
-      strips.directional = directional_speeds(homogenise_strip(strips.closed, contact, {}, strips.edge_band), bulk_density(strips.closed));
+      strips.grips.emplace(strips.closed, contact, DeformationParameters{}, strips.edge_band);
+      strips.directional = directional_speeds(strips.grips->stiffness(), bulk_density(strips.closed));
       strip.bias.push_back({strips.tension.bar_velocity(), strips.directional.bar});
     }
     strips.critical_time_step = 2.0 / largest_frequency(strips.closed, contact, {});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dem/spectra/spectra.h"
+#include "dem/spectra/strain_polynomial.h"
 #include "harness/model/assemble.h"
 #include "harness/run/section_speeds.h"
 
@@ -41,15 +42,30 @@ const ddem::Assembly& StripStatics::strip(StripPacking packing, std::int64_t see
   });
 }
 
-/// P and shear waves share their strip.
-Speeds StripStatics::section_speeds_of(const StripMaterial& key) {
-  const auto between = [&](StripWave wave) {
+std::vector<double> StripStatics::relaxations(const StripMaterial& m, bool periodic) {
+  if (m.model != Model::implicit_full) return {};
+  return relaxations_.get(fmt::format("{} {}", id_of(case_of(m, StripWave::bar)), periodic), [&] {
+    const Scene scene = scene_of(assembly_text(campaign_, case_of(m, StripWave::bar), false), "strains");
+    return strain_relaxations(strip(m.packing, m.seed, periodic), contact_parameters(scene), deformation_parameters(scene));
+  });
+}
+
+double StripStatics::critical_time_step_of(const StripMaterial& m) {
+  const StripCase rigid = case_of({m.packing, m.seed, Model::dem, m.stiffness_ratio}, StripWave::p);
+  return critical_time_steps_.get(id_of(rigid), [&] {
+    const Scene scene = scene_of(assembly_text(campaign_, rigid, false), "critical step");
+    return 2.0 / largest_frequency(strip(m.packing, m.seed, true), contact_parameters(scene), {});
+  });
+}
+
+/// Where the long waves' probes look.
+Speeds StripStatics::section_speeds_of(const StripMaterial& key, const GrippedStrip& free, const GrippedStrip& closed) {
+  const auto between = [&](StripWave wave, const GrippedStrip& strip) {
     const Scene scene = scene_of(scene_text(campaign_, case_of(key, wave), 1.0), "sections");
-    const ddem::Assembly& a = strip(key.packing, key.seed, wave != StripWave::bar);
-    return section_speeds(scene, a, lay_probes(scene, a));
+    return section_speeds(strip, lay_probes(scene, strip.assembly()));
   };
-  const auto free = between(StripWave::bar), periodic = between(StripWave::p);
-  return {free.bar, periodic.s, periodic.p};
+  const auto open = between(StripWave::bar, free), periodic = between(StripWave::p, closed);
+  return {open.bar, periodic.s, periodic.p};
 }
 
 StaticOutcome StripStatics::solve(const StripMaterial& key) {
@@ -58,10 +74,11 @@ StaticOutcome StripStatics::solve(const StripMaterial& key) {
   try {
     const Scene scene = scene_of(assembly_text(campaign_, case_of(key, StripWave::bar), false), "statics");
     const ddem::Assembly& closed = strip(key.packing, key.seed, true);
-    out.moduli = scene_moduli(scene, strip(key.packing, key.seed, false), &closed);
+    const GrippedStrip free_strip = gripped(scene, strip(key.packing, key.seed, false)), closed_strip = gripped(scene, closed);
+    out.moduli = scene_moduli(free_strip, closed_strip);
     const DirectionalSpeeds speeds = out.moduli.speeds().value();
     out.speeds = {speeds.bar, speeds.s, speeds.p};
-    out.critical_time_step = 2.0 / largest_frequency(closed, contact_parameters(scene), {});
+    out.critical_time_step = critical_time_step_of(key);
     // A lattice's cell has all its bonds; a strip's ends have not.
     if (key.packing == StripPacking::hexagonal) {
       StripCampaign small = campaign_;
@@ -72,7 +89,7 @@ StaticOutcome StripStatics::solve(const StripMaterial& key) {
       out.cell = scene_moduli(cell).isotropic();
     } else {
       out.kinematic = kinematic_moduli(scene, closed);
-      out.sections = section_speeds_of(key);
+      out.sections = section_speeds_of(key, free_strip, closed_strip);
     }
     const auto k = references::bulk_wave_speeds(out.kinematic, out.moduli.bulk_density);
     out.kinematic_speeds = {k.bar, k.shear, k.p};

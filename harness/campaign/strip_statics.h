@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dem/statics/moduli.h"
 #include "harness/campaign/results.h"
 #include "harness/campaign/run_options.h"
 
@@ -58,15 +59,21 @@ class StripStatics {
   StaticOutcome of(const StripMaterial& material);
   /// The strip between free edges (bar) or periodic ones. Throws like build_assembly().
   const ddem::Assembly& strip(StripPacking packing, std::int64_t seed, bool periodic);
+  /// Of implicit strains in that strip, see SimulationInput::relaxations; of other models none.
+  std::vector<double> relaxations(const StripMaterial& material, bool periodic);
 
  private:
   StaticOutcome solve(const StripMaterial& material);
-  Speeds section_speeds_of(const StripMaterial& material);
+  /// Of the closed strip and rigid discs, whatever the model: the free one lacks some of its bonds, so that its own is longer.
+  double critical_time_step_of(const StripMaterial& material);
+  Speeds section_speeds_of(const StripMaterial& material, const GrippedStrip& free, const GrippedStrip& closed);
 
   StripCampaign campaign_;
   CampaignOptions options_;
   OnceEach<ddem::Assembly> strips_;
   OnceEach<StaticOutcome> solved_;
+  OnceEach<std::vector<double>> relaxations_;
+  OnceEach<double> critical_time_steps_;
 };
 
 }  // namespace ddem::harness

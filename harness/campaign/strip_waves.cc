@@ -34,7 +34,7 @@ void place_probes(const ProbeLayout& layout, StripPicture& picture) {
 }
 
 WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const StaticOutcome& statics,
-                          StripStatics& shared, const CampaignOptions& options, StripPicture* picture) {
+                          StripStatics& shared, const CampaignOptions& options) {
   WaveOutcome out;
   out.c = c;
   out.static_speed = statics.speeds.of(c.wave);
@@ -50,9 +50,11 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     RunOptions run_options;
     run_options.expected_speed = out.static_speed;
     run_options.warn = false;
-    if (!options.disturb_scene) run_options.critical_time_step = statics.critical_time_step;
-    run_options.snapshots =
-        picture != nullptr ? 2 : 0;  // half-way, where the wave is under way, and at the end
+    run_options.energy_samples = 1;  // the studies of schemes and stability look at energies
+    if (!options.disturb_scene) {
+      run_options.critical_time_step = statics.critical_time_step;
+      run_options.relaxations = shared.relaxations({c.packing, c.seed, c.model, c.stiffness_ratio}, c.wave != StripWave::bar);
+    }
     // A disturbed scene has an assembly of its own.
     const DemRun run =
         options.disturb_scene
@@ -73,19 +75,34 @@ WaveOutcome simulate_case(const StripCampaign& s, const StripCase& c, const Stat
     out.good_pairs = static_cast<int>(run.measurement->speed.good_pairs);
     if (c.protocol == Protocol::long_wave) take_driven_speeds(run, statics, out);
     if (keeps_recording(s, c)) {
-      out.recording = record(wave_component(run.result.signals, *run.wave), run.time_step, run.layout,
+      out.recording = record(wave_component(run.result.signals, *run.wave), run.sample_interval, run.layout,
                              run.context, run.measurement);
-    }
-    if (picture != nullptr) {
-      place_probes(run.layout, *picture);
-      picture->packing = run.assembly.packing;
-      picture->time = run.result.snapshots.front().time;
-      picture->displacement = run.result.snapshots.front().state.ux;
     }
   } catch (const std::exception& e) {
     out.failure = e.what();
   }
   return out;
+}
+
+/// Half-way of the paper's bar wave. All discs are seen, so that it is marched step by step.
+StripPicture take_picture(const StripCampaign& s, const StripMaterial& m, const StaticOutcome& statics,
+                          StripStatics& shared) {
+  StripPicture picture;
+  if (!statics.failure.empty()) return picture;
+  Scene scene = scene_of(scene_text(s, case_of(m, StripWave::bar, Protocol::paper), statics.speeds.bar), "picture");
+  scene.time.integrator = Integrator::verlet;
+  RunOptions options;
+  options.expected_speed = statics.speeds.bar;
+  options.critical_time_step = statics.critical_time_step;
+  options.warn = false;
+  options.snapshots = 2;
+  const DemRun run = run_assembly(scene, shared.strip(m.packing, m.seed, false), options);
+  if (run.result.snapshots.empty()) return picture;
+  place_probes(run.layout, picture);
+  picture.packing = run.assembly.packing;
+  picture.time = run.result.snapshots.front().time;
+  picture.displacement = run.result.snapshots.front().state.ux;
+  return picture;
 }
 
 }  // namespace
@@ -128,10 +145,9 @@ MaterialOutcome run_material(const StripCampaign& s, const StripMaterial& m, Str
                              const CampaignOptions& options) {
   MaterialOutcome out;
   out.statics = shared.of(m);
-  if (shows_strip(s, m)) out.picture.emplace();
+  if (shows_strip(s, m)) out.picture = take_picture(s, m, out.statics, shared);
   for (const StripCase& c : cases_of(m)) {
-    const bool shown = out.picture && c.protocol == Protocol::paper && c.wave == StripWave::bar;
-    out.waves.push_back(simulate_case(s, c, out.statics, shared, options, shown ? &*out.picture : nullptr));
+    out.waves.push_back(simulate_case(s, c, out.statics, shared, options));
   }
   return out;
 }

@@ -186,6 +186,7 @@ DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOption
   SimulationInput in;
   in.contact = contact_parameters(scene);
   in.deformation = deformation_parameters(scene);
+  in.relaxations = options.relaxations;
   in.held = held_dofs(scene, run.assembly);
   in.initial = initial_state(scene, run.assembly);
   in.drive = edge_drive(scene, run.assembly);

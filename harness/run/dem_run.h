@@ -35,6 +35,8 @@ struct RunOptions {
   bool warn = true;         ///< of crystallised packings, and of instability that theory predicts; costs more than a short run
   /// Of the assembly, or a smaller one (s), where the caller knows it: finding it takes as long as some hundred steps.
   std::optional<double> critical_time_step = std::nullopt;
+  /// See SimulationInput::relaxations.
+  std::vector<double> relaxations = {};
 };
 
 /// What happened, for people: "the run diverged", and what to do about it.

@@ -34,12 +34,39 @@ double mean_normal_stiffness(const ddem::Assembly& a, const ContactParameters& c
   return weighted / weight;
 }
 
-/// Homogenisation in the directions in which the assembly is periodic.
-PlaneStiffness homogenise(const Scene& scene, const ddem::Assembly& a) {
-  const ContactParameters contact = contact_parameters(scene);
-  const DeformationParameters deformation = deformation_parameters(scene);
-  if (a.packing.period.x > 0.0 && a.packing.period.y > 0.0) return homogenise_cell(a, contact, deformation);
-  return homogenise_strip(a, contact, deformation, edge_band(scene, a));
+SceneModuli description_of(const ddem::Assembly& a) {
+  SceneModuli m;
+  m.discs = static_cast<int>(a.size());
+  m.bonds = static_cast<int>(a.bonds.size());
+  m.rattlers = static_cast<int>(a.rattlers.size());
+  m.coordination = coordination(a.bonds, a.size());
+  m.solid_fraction = solid_fraction(a);
+  m.bulk_density = bulk_density(a);
+  return m;
+}
+
+SceneModuli moduli_of_cell(const Scene& scene, const ddem::Assembly& a) {
+  SceneModuli m = description_of(a);
+  m.method = "homogenisation of the cell periodic in x and y";
+  m.stiffness = homogenise_cell(a, contact_parameters(scene), deformation_parameters(scene));
+  return m;
+}
+
+SceneModuli moduli_between_periodic_edges(const GrippedStrip& strip) {
+  SceneModuli m = description_of(strip.assembly());
+  m.method = "homogenisation periodic in y, between inner sections along x";
+  m.stiffness = strip.stiffness();
+  return m;
+}
+
+/// `closed`: null where the packing does not close.
+SceneModuli moduli_between_free_edges(const GrippedStrip& strip, const GrippedStrip* closed) {
+  SceneModuli m = description_of(strip.assembly());
+  if (closed != nullptr) m.stiffness = closed->stiffness();
+  m.strip = strip.tension();
+  m.method = m.stiffness ? "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension"
+                         : "the free strip under tension only: this packing from a file does not close in y (give its width as the period)";
+  return m;
 }
 
 }  // namespace
@@ -64,37 +91,26 @@ std::optional<double> SceneModuli::speed_of(Wave wave, bool periodic) const {
   return wave == Wave::shear ? s->s : periodic ? s->p : s->bar;
 }
 
+GrippedStrip gripped(const Scene& scene, const ddem::Assembly& a) {
+  return {a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a)};
+}
+
+SceneModuli scene_moduli(const GrippedStrip& strip, const GrippedStrip& closed) { return moduli_between_free_edges(strip, &closed); }
+
 SceneModuli scene_moduli(const Scene& scene) {
   const ddem::Assembly a = build_network(scene);
   const auto closed = scene.assembly.periodic.y ? std::nullopt : build_laterally_closed(scene);
-  return scene_moduli(scene, a, closed ? &*closed : nullptr);
-}
-
-SceneModuli scene_moduli(const Scene& scene, const ddem::Assembly& a, const ddem::Assembly* closed) {
-  SceneModuli m;
-  m.discs = static_cast<int>(a.size());
-  m.bonds = static_cast<int>(a.bonds.size());
-  m.rattlers = static_cast<int>(a.rattlers.size());
-  m.coordination = coordination(a.bonds, a.size());
-  m.solid_fraction = solid_fraction(a);
-  m.bulk_density = bulk_density(a);
   try {
-    if (scene.assembly.periodic.y) {
-      m.method = scene.assembly.periodic.x ? "homogenisation of the cell periodic in x and y"
-                                           : "homogenisation periodic in y, between inner sections along x";
-      m.stiffness = homogenise(scene, a);
-      return m;
-    }
-    if (closed != nullptr) m.stiffness = homogenise(scene, *closed);
-    m.strip = pull_strip(a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a));
-    m.method = m.stiffness ? "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension"
-                           : "the free strip under tension only: this packing from a file does not close in y (give its width as the period)";
+    if (scene.assembly.periodic.x && scene.assembly.periodic.y) return moduli_of_cell(scene, a);
+    const GrippedStrip strip = gripped(scene, a);
+    if (scene.assembly.periodic.y) return moduli_between_periodic_edges(strip);
+    const auto closed_strip = closed ? std::optional(gripped(scene, *closed)) : std::nullopt;
+    return moduli_between_free_edges(strip, closed_strip ? &*closed_strip : nullptr);
   } catch (const std::invalid_argument& e) {
     throw InputError(scene.path.string() + ": [assembly]: " + e.what());
   } catch (const std::runtime_error& e) {
     throw SolverError(std::string("static moduli: ") + e.what());
   }
-  return m;
 }
 
 references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembly& a) {

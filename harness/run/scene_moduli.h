@@ -27,8 +27,10 @@ struct SceneModuli {
 
 /// Throws InputError (scene), SolverError (no static equilibrium).
 SceneModuli scene_moduli(const Scene& scene);
-/// The same where the caller has the scene's assembly and, between free edges, its laterally closed counterpart (null: none).
-SceneModuli scene_moduli(const Scene& scene, const ddem::Assembly& assembly, const ddem::Assembly* closed);
+/// The strip of such a scene, or its laterally closed counterpart, in grips.
+GrippedStrip gripped(const Scene& scene, const ddem::Assembly& assembly);
+/// The moduli where the caller has the scene's strip between free edges in grips, and its laterally closed counterpart.
+SceneModuli scene_moduli(const GrippedStrip& strip, const GrippedStrip& closed);
 
 /// The kinematic (Voigt) estimate of the same assembly: closed forms of theory section 2, exact on the lattice.
 references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembly& assembly);

@@ -1,14 +1,11 @@
 #include "harness/run/section_speeds.h"
 
-#include "harness/model/assemble.h"
-
 namespace ddem::harness {
 
-StaticSections::Speeds section_speeds(const Scene& scene, const ddem::Assembly& assembly, const ProbeLayout& layout) {
+StaticSections::Speeds section_speeds(const GrippedStrip& strip, const ProbeLayout& layout) {
   std::vector<SectionDiscs> sections;
   for (const Probe& p : layout.probes) sections.push_back(p.receiver.discs);
-  const StaticSections statics = static_sections(assembly, contact_parameters(scene), deformation_parameters(scene),
-                                                 edge_band(scene, assembly), sections);
+  const StaticSections statics = strip.sections(sections);
   StaticSections::Speeds mean;
   const double weight = 1.0 / static_cast<double>(layout.pairs.size());
   for (const ProbePair& pair : layout.pairs) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "dem/statics/moduli.h"
 #include "meshes/packings/random.h"
 #include "tests/support/assemblies.h"
 #include "tests/verification/laws.h"
@@ -71,6 +72,9 @@ TEST(Sections, AreTheLatticesBetweenPeriodicEdges) {
         EXPECT_LT(relative(speeds.p, std::sqrt((exact.bulk + exact.shear) / density)), 1e-10);
         EXPECT_LT(relative(speeds.s, std::sqrt(exact.shear / density)), 1e-10);
         EXPECT_EQ(speeds.bar, 0.0);
+        const GrippedStrip grips(a, c.contact(), c.deformation(), kEdgeBand);
+        EXPECT_LT(relative(grips.sections(sections).between(0, 1).p, speeds.p), 1e-10);
+        EXPECT_LT(relative(grips.sections(sections).between(0, 1).s, speeds.s), 1e-10);
       }
     }
   }
@@ -88,6 +92,9 @@ TEST(Sections, AreThePulledStrips) {
       const auto speeds = static_sections(a, c.contact(), c.deformation(), kEdgeBand, sections).between(0, 1);
       EXPECT_LT(relative(speeds.bar, expected), 2e-6) << c.description();
       EXPECT_EQ(speeds.p, 0.0);
+      // The grips are the same ones.
+      const GrippedStrip grips(a, c.contact(), c.deformation(), kEdgeBand);
+      EXPECT_LT(relative(grips.sections(sections).between(0, 1).bar, speeds.bar), 1e-10);
     }
   }
 }
@@ -123,6 +130,31 @@ TEST(Sections, AddUpInSeries) {
   const DirectionalSpeeds directional = directional_speeds(whole, bulk_density(a));
   EXPECT_NEAR(s.between(0, 2).p / directional.p, 1.0, 0.03);
   EXPECT_NEAR(s.between(0, 2).s / directional.s, 1.0, 0.03);
+}
+
+/// Grips that hold everything press other forces through the strip, which the forces' matrix takes out again; what is left is
+/// felt as far as exp(-2 pi x/W), 1.2 widths: 5e-4.
+TEST(Sections, AreTheSameInGripsThatHoldEverything) {
+  const Assembly a = random_strip(true);
+  const double r = mean_radius(a.packing);
+  const std::vector<SectionDiscs> sections = {discs_near(a, 0.3 * a.packing.length, 2.0 * r),
+                                              discs_near(a, 0.7 * a.packing.length, 2.0 * r)};
+  for (const double ratio : {0.0, 0.4}) {
+    for (const test::Law& law : test::kLaws) {
+      const LatticeCase c = lattice(law, ratio);
+      const auto free = static_sections(a, c.contact(), c.deformation(), kEdgeBand, sections).between(0, 1);
+      const auto held = GrippedStrip(a, c.contact(), c.deformation(), kEdgeBand).sections(sections).between(0, 1);
+      EXPECT_LT(relative(held.p, free.p), 5e-4) << c.description();
+      EXPECT_LT(relative(held.s, free.s), 5e-4) << c.description();
+    }
+  }
+}
+
+TEST(GrippedStrip, RefusesWhatItsEdgesDoNotAllow) {
+  const LatticeCase c = lattice(test::kDem, 0.3);
+  const Assembly open = strip(CloseRows::along_x, 30, 4, false), closed = strip(CloseRows::along_x, 30, 4, true);
+  EXPECT_THROW(GrippedStrip(open, c.contact(), c.deformation(), kEdgeBand).stiffness(), std::invalid_argument);
+  EXPECT_THROW(GrippedStrip(closed, c.contact(), c.deformation(), kEdgeBand).tension(), std::invalid_argument);
 }
 
 /// N is not symmetric, but its equilibrium is one: softer than that of rigid discs, and the whole strip's within what
