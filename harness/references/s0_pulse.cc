@@ -1,5 +1,6 @@
 #include "harness/references/s0_pulse.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,7 +40,7 @@ S0Pulse::S0Pulse(const FreeStrip& strip, double duration, double farthest, doubl
   const double reach = farthest + strip.bar_speed * (last + duration);
   const double dk = std::numbers::pi / reach;
   const double one_oscillation = 2.0 * std::numbers::pi / duration;
-  components_.push_back({0.5 * strip.bar_speed * 0.5 * duration * dk / std::numbers::pi, 0.0, 0.0});
+  add(0.5 * strip.bar_speed * 0.5 * duration * dk / std::numbers::pi, 0.0, 0.0);
   for (double n = 1.0; n * dk * strip.width < kWidestRatio; n += 1.0) {
     const double k = n * dk;
     const LambSpeeds speeds = lamb_s0(k * strip.width, strip.poisson_ratio);
@@ -47,14 +48,33 @@ S0Pulse::S0Pulse(const FreeStrip& strip, double duration, double farthest, doubl
     if (omega > kOscillations * one_oscillation) break;
     const double slope = strip.bar_speed * speeds.group;  // dw = group speed dk
     const double share = fade(omega / one_oscillation) * lamb_s0_share(k * strip.width, strip.poisson_ratio, speeds.phase);
-    components_.push_back({share * spectrum(omega, duration) * slope * dk / std::numbers::pi, omega, k});
+    add(share * spectrum(omega, duration) * slope * dk / std::numbers::pi, omega, k);
   }
 }
 
-double S0Pulse::displacement(double x, double t) const {
-  double sum = 0.0;
-  for (const Component& c : components_) sum += c.weight * std::cos(c.omega * (t - middle_) - c.k * x);
-  return sum;
+void S0Pulse::add(double weight, double omega, double k) {
+  weight_.push_back(weight);
+  omega_.push_back(omega);
+  k_.push_back(k);
+}
+
+/// Every wave is a phase that turns by omega dt a sample: no cosine but at the start.
+std::vector<double> S0Pulse::signal(double x, double dt, std::size_t samples) const {
+  const auto vector = [](const std::vector<double>& v) {
+    return Eigen::Map<const Eigen::ArrayXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+  };
+  const Eigen::ArrayXd phase = -(vector(omega_) * middle_ + vector(k_) * x), turn = vector(omega_) * dt;
+  const Eigen::ArrayXd turn_re = turn.cos(), turn_im = turn.sin();
+  Eigen::ArrayXd re = vector(weight_) * phase.cos(), im = vector(weight_) * phase.sin(), before;
+  std::vector<double> u;
+  u.reserve(samples);
+  for (std::size_t n = 0; n < samples; ++n) {
+    u.push_back(re.sum());
+    before = re;
+    re = before * turn_re - im * turn_im;
+    im = before * turn_im + im * turn_re;
+  }
+  return u;
 }
 
 }  // namespace ddem::references

@@ -1,6 +1,7 @@
 #pragma once
 // A pulse in a strip with free edges, as its S0 wave carries it: what the bar run would show in the continuum.
 
+#include <cstddef>
 #include <vector>
 
 namespace ddem::references {
@@ -25,13 +26,13 @@ class S0Pulse {
   /// and outside 0 <= nu < 1.
   S0Pulse(const FreeStrip& strip, double duration, double farthest, double last);
 
-  double displacement(double x, double t) const;
+  /// At x and the times 0, dt, 2 dt .. (samples - 1) dt.
+  std::vector<double> signal(double x, double dt, std::size_t samples) const;
 
  private:
-  struct Component {
-    double weight, omega, k;
-  };
-  std::vector<Component> components_;
+  void add(double weight, double omega, double k);
+
+  std::vector<double> weight_, omega_, k_;  // of each wave
   double middle_;
 };
 

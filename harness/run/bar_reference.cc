@@ -22,12 +22,11 @@ WaveMeasurement s0_measurement(const references::FreeStrip& strip, const ProbeLa
   bar.poisson_ratio = std::max(0.0, strip.poisson_ratio);
   const references::S0Pulse pulse(bar, context.source_duration, farthest, last);
   const double dt = context.source_duration / kSamples;
+  const auto samples = static_cast<std::size_t>(last / dt) + 1;
   std::vector<std::vector<double>> signals;
   for (const Probe& p : layout.probes) {
-    std::vector<double>& signal = signals.emplace_back();
-    for (double n = 0.0; n * dt <= last; n += 1.0) {
-      signal.push_back(context.source_amplitude * pulse.displacement(p.x - context.left_end, n * dt));
-    }
+    signals.push_back(pulse.signal(p.x - context.left_end, dt, samples));
+    for (double& u : signals.back()) u *= context.source_amplitude;
   }
   return measure_wave(signals, dt, layout, context);
 }
