@@ -13,7 +13,7 @@ constexpr double kNoiseStepFraction = 0.5;
 constexpr long kNoiseSteps = 20000;
 constexpr long kImplicitNoiseSteps =
     4000;  // several passes a step, and an invariant that would show growth at once
-constexpr std::int64_t kNoiseColumns = 20, kNoiseRows = 20;
+constexpr std::int64_t kNoiseColumns = 10, kNoiseRows = 10;
 
 /// Noise that is the same everywhere: no library's random numbers, whose distributions differ.
 std::vector<double> noise(std::size_t n, std::uint64_t state) {

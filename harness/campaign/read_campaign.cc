@@ -140,6 +140,7 @@ std::map<std::string, Setter> setters(StripCampaign& c) {
           {"particle_modulus", positive(c.particle_modulus, Dimension::stress)},
           {"particle_poisson_ratio", positive(c.particle_poisson_ratio, Dimension::none, 0.99)},
           {"step_fraction", positive(c.step_fraction, Dimension::none, 1.0)},
+          {"long_wave_step_fraction", positive(c.long_wave_step_fraction, Dimension::none, 1.0)},
           {"pulse_length", positive(c.pulse_length, Dimension::length)},
           {"fem_degree", integer(c.fem_degree, 1, 8)},
           {"full_stability", yes_or_no(c.full_stability)}};

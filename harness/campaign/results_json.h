@@ -89,7 +89,8 @@ namespace ddem::harness {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripCampaign, title, stiffness_ratios, models, seeds, length, width,
                                    discs, columns, rows, coordination, density, normal_stiffness,
-                                   particle_modulus, particle_poisson_ratio, step_fraction, pulse_length,
+                                   particle_modulus, particle_poisson_ratio, step_fraction,
+                                   long_wave_step_fraction, pulse_length,
                                    fem_degree, fem_elements, full_stability)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripCase, packing, seed, model, stiffness_ratio, protocol, wave)
 

@@ -74,6 +74,7 @@ std::optional<double> reached_poisson(const StripCampaign& s, const IsotropicMod
     const double expected = std::sqrt((shear ? closed.shear : closed.bulk + closed.shear) / density);
     Scene scene = scene_of(scene_text(s, {StripPacking::hexagonal, 0, Model::implicit_full, 0.0, Protocol::long_wave, wave}, expected), "reach");
     set_scheme(scene.deformation.value());
+    if (scene.deformation->scheme == Scheme::lagged) scene.time.integrator = Integrator::verlet;
     RunOptions run_options;
     run_options.expected_speed = expected;
     run_options.warn = false;

@@ -13,6 +13,7 @@
 #include "dem/spectra/bloch.h"
 #include "dem/spectra/spectra.h"
 #include "dem/spectra/step_map.h"
+#include "dem/spectra/strain_polynomial.h"
 #include "harness/measure/linear_prediction.h"
 #include "meshes/packings/hexagonal.h"
 #include "meshes/packings/random.h"
@@ -25,7 +26,7 @@ using Complex = std::complex<double>;
 constexpr double kAmplitude = 1e-9;  // m; every model here is linear
 constexpr int kCells = 6;            // of the lattice along each side: holds the corners and edge centres of the zone
 constexpr double kRadius = 1e-4;     // m; nothing depends on it
-constexpr long kFewestSteps = 15, kSecondLook = 31, kMostSteps = 10000, kNoiseSteps = 400;
+constexpr long kFewestSteps = 15, kSecondLook = 31, kMostSteps = 4000, kNoiseSteps = 400;
 constexpr long kNeutralSteps = 300;    // of schemes without memory, which stay in the motion that they are released from
 constexpr double kWantedGrowth = 35.0, kWantedDecay = 3.0;  // of ln of the amplitude in a run
 constexpr double kNoGrowth = 1e-9;
@@ -169,6 +170,7 @@ SimulationInput input_of(const Subject& subject, const DeformationParameters& d,
   in.deformation = d;
   in.time_step = dt;
   in.energy_samples = 1;
+  if (d.scheme == Scheme::implicit) in.relaxations = strain_relaxations(subject.assembly(), subject.contact(), d);
   if (grid.disturb) grid.disturb(in);
   return in;
 }
@@ -328,7 +330,7 @@ StabilityGrid stability_grid(bool full) {
   StabilityGrid g;
   g.step_fraction = full ? std::vector<double>{0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99, 1.1}
                          : std::vector<double>{0.02, 0.15, 0.3, 0.45, 0.6, 0.75, 0.88, 0.99, 1.1};
-  g.softness = decades(0.01, 10.0, full ? 8 : 3);
+  g.softness = decades(0.01, 10.0, full ? 8 : 2);
   g.random_step_fraction = full ? g.step_fraction : std::vector<double>{0.02, 0.3, 0.6, 0.9, 1.1};
   g.random_softness = decades(0.01, 10.0, full ? 4 : 2);
   if (full) g.random_discs = 40;

@@ -57,6 +57,13 @@ std::string load_text(const StripCampaign& s, const StripCase& c, double speed) 
                      s.pulse_length / speed, kAmplitude);
 }
 
+/// Of lagged strains the step is a part: what they do to waves is of first order in it.
+std::string time_text(const StripCampaign& s, const StripCase& c) {
+  const bool lagged = c.model == Model::lagged_normal || c.model == Model::lagged_full;
+  return fmt::format("[time]\nintegrator = \"{}\"\nstep_fraction = {}\n\n", lagged ? "verlet" : "exact",
+                     c.protocol == Protocol::paper ? s.step_fraction : s.long_wave_step_fraction);
+}
+
 }  // namespace
 
 std::string name(Model model) {
@@ -88,7 +95,7 @@ std::string scene_text(const StripCampaign& s, const StripCase& c, double speed)
   std::string t = fmt::format("title = \"{}\"\n\n", id_of(c)) + packing_text(s, c, "") + material_text(s, c);
   t += fmt::format("[boundary]\ntop_bottom = \"{}\"\nright = \"fixed_x\"\n\n", periodic ? "periodic" : "free");
   t += load_text(s, c, speed);
-  t += fmt::format("[time]\nstep_fraction = {}\n\n[probes]\npairs = 5\n", s.step_fraction);
+  t += time_text(s, c) + "[probes]\npairs = 5\n";
   if (c.protocol == Protocol::long_wave) t += "section = true\n";
   return t;
 }

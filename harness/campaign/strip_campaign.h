@@ -37,7 +37,10 @@ struct StripCampaign {
   double normal_stiffness = 1e10;         ///< N/m
   double particle_modulus = 4e10;         ///< E_p, Pa
   double particle_poisson_ratio = 0.45;   ///< nu_p
-  double step_fraction = 0.2;             ///< of the critical time step
+  /// Of the critical time step: spacing of the signals, and the step of lagged strains. Rigid discs and implicit strains
+  /// are marched exactly in time.
+  double step_fraction = 0.2;
+  double long_wave_step_fraction = 0.4;   ///< of driven long pulses
   double pulse_length = 8e-3;             ///< of the driven pulse in the strip, m (support)
   std::int64_t fem_degree = 4;
   std::array<std::int64_t, 2> fem_elements = {33, 4};  ///< along x and y: 0.5 mm each, for pulses of 8 mm

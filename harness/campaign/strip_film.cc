@@ -76,7 +76,9 @@ StripFilm film_strip(const StripCampaign& s) {
     options.energy_samples = kEnergySamples;
     options.snapshots = model == s.models.front() || model == s.models.back() ? kFrames : 0;
     try {
-      const DemRun run = run_scene(scene_of(scene_text(s, c, 1.0), "film"), options);
+      Scene scene = scene_of(scene_text(s, c, 1.0), "film");
+      scene.time.integrator = Integrator::verlet;  // every disc is seen
+      const DemRun run = run_scene(scene, options);
       if (run.result.breakdown) {
         film.failure = fmt::format("{} diverged at step {}", name(model), run.result.breakdown->step);
         continue;

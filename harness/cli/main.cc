@@ -1,5 +1,7 @@
 // ddem: the command line.
 
+#include <malloc.h>
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -55,9 +57,17 @@ int run(int argc, char** argv) {
   return action();
 }
 
+/// A campaign makes and drops matrices of some megabytes thousands of times. The C library would give their pages back to
+/// the system every time and have them zeroed again: a tenth of the time of a static solve.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   try {
     const int code = run(argc, argv);
     // Data that did not reach standard output must not look like success.

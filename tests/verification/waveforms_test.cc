@@ -54,7 +54,7 @@ double correlation(const Pair& p, const FemResult& fem) {
     const double recorded = fem.sample_interval * static_cast<double>(continuum[k].size() - 1);
     const double end = std::min(recorded, causal_window(p.dem.context, p.dem.layout.probes[k].x).end);
     for (std::size_t n = 0; n < particles[k].size(); ++n) {
-      const double time = static_cast<double>(n) * p.dem.time_step;
+      const double time = static_cast<double>(n) * p.dem.sample_interval;
       if (time > end) break;
       const double a = particles[k][n], b = value_at(continuum[k], fem.sample_interval, time);
       ab += a * b, aa += a * a, bb += b * b;
