@@ -68,6 +68,9 @@ struct Recording {
   std::vector<PickedSignal> signals;
 };
 
+/// Every so many samples, 300 to 600 of each signal: what is stored of a recording, and more than a figure shows.
+Recording thinned(const Recording& recording);
+
 /// One simulation.
 struct WaveOutcome {
   StripCase c;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "harness/bench/bench.h"
+#include "harness/campaign/figures.h"
 #include "harness/campaign/noise_release.h"
 #include "harness/campaign/results_json.h"
 #include "harness/campaign/strip_fem.h"
@@ -39,7 +40,7 @@ json inputs_of(const StripCampaign& s, const StripMaterial& m) {
   alone.full_stability = false;
   json inputs = inputs_of(alone);
   inputs["solved_as"] = continuum_model(s, m.model);
-  inputs["for_figures"] = {m.seed == s.seeds.front(), shows_strip(s, m)};
+  inputs["for_figures"] = {m.seed == s.seeds.front(), shows_strip(s, m), m.stiffness_ratio == shown_ratio(s)};
   return inputs;
 }
 
@@ -55,9 +56,21 @@ auto taking(const Take& take) {
   return [take](const json& j, CampaignResults& r) { take(j.get<Result>(), r); };
 }
 
+/// Of a released column's short waves a figure shows every sample, at one ratio; driven pulses are smooth.
+void keep_shown(const StripCampaign& s, MaterialOutcome& m) {
+  for (WaveOutcome& w : m.waves) {
+    const bool whole = w.c.protocol == Protocol::paper && w.c.stiffness_ratio == shown_ratio(s);
+    if (!whole) w.recording = thinned(w.recording);
+  }
+}
+
 CampaignUnit material_unit(const SharedCampaign& c, const StripMaterial& m, std::size_t k,
                            std::size_t first_wave) {
-  const auto run = [c, m] { return json(run_material(c->campaign, m, c->statics, c->options)); };
+  const auto run = [c, m] {
+    MaterialOutcome found = run_material(c->campaign, m, c->statics, c->options);
+    keep_shown(c->campaign, found);
+    return json(found);
+  };
   const auto take = [k, first_wave](MaterialOutcome&& found, CampaignResults& r) {
     if (found.waves.size() != cases_of(found.statics.key).size() || found.statics.key != r.statics[k].key) {
       throw std::runtime_error("the result is another material's");

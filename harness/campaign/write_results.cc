@@ -18,21 +18,18 @@
 namespace ddem::harness {
 namespace {
 
-constexpr std::size_t kStoredSamples = 300;  // of a signal; a wave run has some thousands
-
 void set_finite(Hdf5Group& g, const std::string& name, std::optional<double> value) {
   if (value && std::isfinite(*value)) g.set_attribute(name, *value);
 }
 
 /// signals: probe x sample; a pick that failed has its reason in pick_status and is not in pick_time.
-void write_recording(Hdf5Group& parent, const Recording& recording) {
-  if (recording.signals.empty()) return;
-  const std::size_t samples = recording.signals.front().values.size();
-  const std::size_t stride = std::max<std::size_t>(1, samples / kStoredSamples);
+void write_recording(Hdf5Group& parent, const Recording& whole) {
+  if (whole.signals.empty()) return;
+  const Recording recording = thinned(whole);
   std::vector<double> values, distance, pick_time, pick_amplitude;
   std::vector<std::string> probes, pick_status;
   for (const PickedSignal& s : recording.signals) {
-    for (std::size_t n = 0; n < samples; n += stride) values.push_back(s.values[n]);
+    values.insert(values.end(), s.values.begin(), s.values.end());
     probes.push_back(s.probe);
     distance.push_back(s.x);
     pick_status.push_back(s.pick_time ? "ok" : s.pick_failure);
@@ -42,7 +39,7 @@ void write_recording(Hdf5Group& parent, const Recording& recording) {
   Hdf5Group g = parent.create_group("recording");
   Hdf5Dataset signals = g.write("signals", values, {recording.signals.size(), values.size() / recording.signals.size()});
   signals.set_attribute("unit", "m");
-  signals.set_attribute("sample_interval", recording.sample_interval * static_cast<double>(stride));
+  signals.set_attribute("sample_interval", recording.sample_interval);
   g.write("probes", probes);
   g.write("distance_from_source", distance).set_attribute("unit", "m");
   g.write("pick_status", pick_status);
