@@ -8,6 +8,8 @@
 
 #include "dem/statics/moduli.h"
 #include "harness/bench/precision.h"
+#include "harness/campaign/calibration_study.h"
+#include "harness/campaign/design_study.h"
 #include "harness/campaign/discrimination_study.h"
 #include "harness/campaign/dispersion_study.h"
 #include "harness/campaign/range_study.h"
@@ -133,6 +135,8 @@ struct CampaignResults {
   std::vector<FemOutcome> fem;
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
+  std::vector<CalibrationOutcome> calibrations;  ///< one each of calibration_cases()
+  std::optional<DesignStudy> design;
   std::vector<bench::PrecisionPoint> work_precision;  ///< of a small measurement, for the report's figure; no verdict
   std::vector<StabilityMap> stability_maps;
   std::optional<DispersionStudy> dispersion;

@@ -143,6 +143,23 @@ void add_sizes(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
   }
 }
 
+void add_calibrations(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
+  const std::string inputs = inputs_of(c->campaign).dump();
+  const auto cases = calibration_cases();
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    units.push_back(
+        {{id_of(cases[k]), inputs, 1,
+          [c, one = cases[k]] { return json(study_calibration(c->campaign, one, c->options)); }},
+         taking<CalibrationOutcome>(
+             [k](CalibrationOutcome&& found, CampaignResults& r) { r.calibrations[k] = std::move(found); }),
+         [k](const std::string& reason, CampaignResults& r) { r.calibrations[k].failure = reason; }});
+  }
+  units.push_back({{"design-curves", inputs, 1, [c] { return json(study_design(c->campaign)); }},
+                   taking<DesignStudy>(
+                       [](DesignStudy&& found, CampaignResults& r) { r.design = std::move(found); }),
+                   [](const std::string&, CampaignResults& r) { r.design.reset(); }});
+}
+
 void add_studies(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
   const std::string inputs = inputs_of(c->campaign).dump();
   const auto done = [c] {
@@ -211,6 +228,10 @@ CampaignResults empty_results(const StripCampaign& s, const CampaignOptions& opt
   if (!options.with_studies) return r;
   r.schemes.emplace().failure = not_run;
   r.range.emplace().failure = not_run;
+  for (const CalibrationCase& c : calibration_cases()) {
+    r.calibrations.emplace_back().id = id_of(c);
+    r.calibrations.back().failure = not_run;
+  }
   if (SizeStudy sizes = plan_sizes(s); !sizes.strips.empty()) r.sizes = std::move(sizes);
   if (r.sizes) {
     for (SizedStrip& strip : r.sizes->strips) strip.failure = not_run;
@@ -229,6 +250,7 @@ std::vector<CampaignUnit> units_of(const StripCampaign& s, const CampaignOptions
   if (options.with_studies) {
     add_sizes(c, units);
     add_studies(c, units);
+    add_calibrations(c, units);
     add_maps(c, units);
   }
   add_film(c, units);
