@@ -128,14 +128,15 @@ PartitionName=all Nodes={host} Default=YES
         munge = self.folder / "munge"
         self.start("munged", "--foreground", "--force", f"--key-file={self.folder}/key", f"--socket={self.folder}/munge.socket",
                    f"--pid-file={munge}/pid", f"--log-file={munge}/log", f"--seed-file={munge}/seed")  # fmt: skip
-        time.sleep(1)
+        while not (self.folder / "munge.socket").exists() and self.processes[0].poll() is None:
+            time.sleep(0.05)
         for name in ("slurmctld", "slurmd"):
             self.start(name, "-D")
-        for _ in range(60):
+        for _ in range(150):
             reason = why_no_slurm()
             if not reason:
                 return self
-            time.sleep(0.5)
+            time.sleep(0.2)
         logs = "".join((self.folder / f"{name}.log").read_text() for name in self.DAEMONS)
         self.__exit__()
         skip(f"a Slurm of its own does not start here: {reason}\n{logs}")
@@ -171,16 +172,18 @@ def logs(folder):
 
 
 def run_array(program, script, folder):
-    """The array's job, which ends when its last shard has."""
-    command = ["sbatch", "--parsable", f"--array=1-{SHARDS}", "--cpus-per-task=1", f"--chdir={folder}"]
+    """Until its last shard has ended; a shard that fails makes this fail."""
+    command = ["sbatch", "--wait", "--parsable", f"--array=1-{SHARDS}", "--cpus-per-task=1", f"--chdir={folder}"]
     command += [f"--export=ALL,DDEM={program},NIGHT={folder / 'night'}", script, str(folder / "campaign.toml")]
-    job = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60).stdout.strip().split(";")[0]
-    waiting = ["sbatch", "--wait", f"--dependency=afterany:{job}", f"--chdir={folder}", "--output=/dev/null", "--wrap=true"]
-    try:
-        subprocess.run(waiting, check=True, capture_output=True, timeout=SECONDS)
-    except subprocess.TimeoutExpired:
-        subprocess.run(["scancel", job], check=False)
-        sys.exit(f"job {job} did not end within {SECONDS} s\n{logs(folder)}")
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as waiting:
+        job = waiting.stdout.readline().strip().split(";")[0]
+        try:
+            status = waiting.wait(timeout=SECONDS)
+        except subprocess.TimeoutExpired:
+            subprocess.run(["scancel", job], check=False)
+            waiting.kill()
+            sys.exit(f"job {job} did not end within {SECONDS} s\n{logs(folder)}")
+    assert status == 0, f"job {job} ended with {status}\n{logs(folder)}"
 
 
 program, script = sys.argv[1:]
