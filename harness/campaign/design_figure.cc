@@ -56,7 +56,8 @@ std::vector<Shown> shown_models(const StripCampaign& s) {
 
 void add_over_ratio(const CampaignResults& r, const Shown& shown, Constant constant, reports::Plot& plot) {
   reports::Series random{.name = shown.name, .color = shown.color};
-  reports::Series lattice{.name = shown.name, .color = shown.color, .dash = reports::Dash::dashed};
+  reports::Series lattice{
+      .name = shown.name + ", lattice", .color = shown.color, .dash = reports::Dash::dashed};
   reports::Band span{.name = shown.name, .color = shown.color};
   for (const double ratio : r.campaign.stiffness_ratios) {
     std::vector<double> values;
@@ -84,6 +85,7 @@ void add_over_softness(const DesignStudy& study, Constant constant, reports::Plo
                            .x = study.softness,
                            .color = kColors[k % std::size(kColors)]};
     reports::Series lattice = random;
+    lattice.name += ", lattice";
     lattice.dash = reports::Dash::dashed;
     for (const DesignPoint& p : c.random) random.y.push_back(p.*constant);
     for (const DesignPoint& p : c.lattice) lattice.y.push_back(p.*constant);
