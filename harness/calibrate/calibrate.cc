@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/nightly/worker_pool.h"
 #include "harness/io/errors.h"
+#include "harness/nightly/worker_pool.h"
 
 namespace ddem::harness {
 namespace {
@@ -39,7 +39,8 @@ double least_ratio(const StaticModel& model) {
   }
 }
 
-std::vector<VariantRange> ranges_of(const StaticModel& model, const SearchSpace& space, double least_ratio) {
+std::vector<VariantRange> ranges_of(const StaticModel& model, const CalibrationOptions& options,
+                                    const SearchSpace& space, double least_ratio) {
   std::vector<DeformationParameters> variants(1);
   for (const Scheme scheme : {Scheme::lagged, Scheme::implicit}) {
     for (const Correction correction :
@@ -47,7 +48,7 @@ std::vector<VariantRange> ranges_of(const StaticModel& model, const SearchSpace&
       DeformationParameters d = model.deformation();
       d.scheme = scheme;
       d.correction = correction;
-      variants.push_back(d);
+      if (options.other_variants || same_variant(d, model.deformation())) variants.push_back(d);
     }
   }
   SearchSpace defaults;
@@ -197,7 +198,7 @@ Calibration calibrate(const Scene& scene, const Target& target, const Calibratio
     const double least = least_ratio(model);
     if (!space.stiffness_ratio.fixed())
       space.stiffness_ratio.low = std::max(space.stiffness_ratio.low, least);
-    c.ranges = ranges_of(model, space, least);
+    c.ranges = ranges_of(model, options, space, least);
     const SearchResult result = find_poisson(model, space, target.poisson_ratio);
     c.feasible = result.feasible();
     c.choice = result.choice;

@@ -16,13 +16,16 @@ struct CalibrationOptions {
   SearchSpace space;
   int seeds = 6;  ///< of random packings, from the scene's own on
   int threads = 1;
+  bool other_variants = true;  ///< ranges of variants that are neither DEM nor the scene's, which help where
+                               ///< a target is out of reach
 };
 
 /// A way to deform the discs, or not to, and the Poisson's ratios that it reaches on this assembly.
 struct VariantRange {
-  std::string name;        ///< "DEM", "implicit F", ...
-  ReachableRange poisson;  ///< k_t/k_n from 0 to 1, default softness and nu_p; DEM: mean over seeds, others: first seed
-  bool own = false;        ///< the scene's variant, over what the options leave free
+  std::string name;  ///< "DEM", "implicit F", ...
+  ReachableRange
+      poisson;  ///< k_t/k_n from 0 to 1, default softness and nu_p; DEM: mean over seeds, others: first seed
+  bool own = false;  ///< the scene's variant, over what the options leave free
 };
 
 /// Parameters of the contacts and discs, and what the target's uncertainty makes of them: standard

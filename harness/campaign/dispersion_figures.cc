@@ -7,37 +7,19 @@
 namespace ddem::harness {
 namespace {
 
-constexpr int kRows = 120;  // of the picture; the spectrum's own lines are far finer
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 reports::Color color_of(const std::string& wave) { return wave == "P" ? reports::Color::vermilion : wave == "shear" ? reports::Color::green : reports::Color::purple; }
 
-/// Frequency (Hz) that all panels reach to.
-double highest_frequency(const DispersionStudy& study) {
-  double most = 0.0;
-  for (const DispersionPanel& panel : study.panels) {
-    if (!panel.slug.starts_with("dem")) continue;
-    for (const DispersionBranch& b : panel.branches) most = std::max(most, *std::max_element(b.exact.begin(), b.exact.end()));
-  }
-  return 1.15 * most / kTwoPi;
-}
-
-/// The largest amplitude of each cell, over that of the panel.
-reports::HeatMap map_of(const DispersionPanel& panel, double zone_boundary, double highest) {
+/// Amplitude over the largest of the panel.
+reports::HeatMap map_of(const DispersionPanel& panel, double zone_boundary) {
   const FkSpectrum& s = panel.spectrum;
-  const auto columns = static_cast<Eigen::Index>(s.wavenumber.size());
-  Eigen::MatrixXd cells = Eigen::MatrixXd::Zero(kRows, columns);
-  for (std::size_t n = 0; n < s.frequency.size(); ++n) {
-    const auto row = static_cast<Eigen::Index>(s.frequency[n] / kTwoPi / highest * kRows);
-    if (row >= kRows) break;
-    for (Eigen::Index k = 0; k < columns; ++k) cells(row, k) = std::max(cells(row, k), s.amplitude(k, static_cast<Eigen::Index>(n)));
-  }
   reports::HeatMap map{.value_axis = {.label = "amplitude", .limits = reports::Limits{1e-3, 1.0}}, .scale = reports::ColorScale::log};
-  const double largest = cells.maxCoeff();
+  const double largest = s.amplitude.maxCoeff();
   for (const double k : s.wavenumber) map.x.push_back(k / zone_boundary);
-  for (Eigen::Index row = 0; row < kRows; ++row) {
-    map.y.push_back((static_cast<double>(row) + 0.5) * highest / kRows);
-    for (Eigen::Index k = 0; k < columns; ++k) map.value.push_back(std::max(cells(row, k) / largest, 1e-9));
+  for (std::size_t n = 0; n < s.frequency.size(); ++n) {
+    map.y.push_back(s.frequency[n] / kTwoPi);
+    for (const double amplitude : s.amplitude.col(static_cast<Eigen::Index>(n))) map.value.push_back(std::max(amplitude / largest, 1e-9));
   }
   return map;
 }
@@ -46,7 +28,7 @@ reports::Plot plot_of(const DispersionPanel& panel, double zone_boundary, double
   reports::Plot plot{.title = panel.system,
                      .x = {.label = "wavenumber over zone boundary", .limits = reports::Limits{0.0, 1.0}},
                      .y = {.label = "frequency", .unit = "Hz", .limits = reports::Limits{0.0, highest}},
-                     .map = map_of(panel, zone_boundary, highest)};
+                     .map = map_of(panel, zone_boundary)};
   for (const DispersionBranch& b : panel.branches) {
     reports::Series line{.name = b.wave + ", exact", .color = color_of(b.wave), .dash = reports::Dash::dashed};
     for (std::size_t n = 0; n < b.wavenumber.size(); ++n) {
@@ -67,9 +49,9 @@ reports::Figure dispersion_figure(const DispersionStudy& study) {
                                     "branches, of plane waves in the lattice, of the continuum, and of Rayleigh and Lamb (S0) where the edges are free. Discs follow the "
                                     "continuum for long waves and are slower for short ones; lagged strains damp those away. The faint branch above in the strips of "
                                     "discs is rotation; those of the free strip are its higher modes."};
-  const double highest = highest_frequency(study);
+  const double highest = highest_frequency(study) / kTwoPi;
   for (const DispersionPanel& panel : study.panels) {
-    if (panel.failure.empty()) figure.panels.emplace_back(plot_of(panel, study.zone_boundary, highest));
+    if (panel.spectrum.amplitude.size() > 0) figure.panels.emplace_back(plot_of(panel, study.zone_boundary, highest));
   }
   return figure;
 }

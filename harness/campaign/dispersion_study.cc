@@ -30,6 +30,7 @@ constexpr int kSampleEvery = 4;
 // Lines of waves with fewer lengths over the strip merge with their reflections.
 constexpr double kFewestWaves = 7.5;
 constexpr double kZoneBoundary = std::numbers::pi / kSpacing;
+constexpr int kBands = 120;  // of the picture; the spectrum's own lines are far finer
 constexpr double kNear = 0.04;  // a crest is looked for so near to its branch: rotations and higher modes are in the spectra too
 
 bool is_judged(double k) { return k >= kFewestWaves * 2.0 * std::numbers::pi / (kColumns * kSpacing) && k <= 0.501 * kZoneBoundary; }
@@ -155,6 +156,18 @@ void add_continuum(DispersionStudy& study, const ContinuumMaterial& material, do
   study.panels.push_back(std::move(open));
 }
 
+/// The largest amplitude of each of kBands bands; what is above the highest frequency is left out.
+FkSpectrum coarse(const FkSpectrum& s, double highest) {
+  FkSpectrum out{s.wavenumber, {}, Eigen::MatrixXd::Zero(s.amplitude.rows(), kBands)};
+  for (int band = 0; band < kBands; ++band) out.frequency.push_back((band + 0.5) * highest / kBands);
+  for (std::size_t n = 0; n < s.frequency.size(); ++n) {
+    const auto band = static_cast<Eigen::Index>(s.frequency[n] / highest * kBands);
+    if (band >= kBands) break;
+    out.amplitude.col(band) = out.amplitude.col(band).cwiseMax(s.amplitude.col(static_cast<Eigen::Index>(n)));
+  }
+  return out;
+}
+
 ContinuumMaterial closed_form(const StripCampaign& s) {
   const references::Fabric fabric = references::hexagonal_fabric();
   const references::PlaneModuli m = references::effective_moduli(references::ContactModel::ddem_full, fabric, {s.normal_stiffness, kRatio},
@@ -175,6 +188,15 @@ double DispersionBranch::worst_deviation() const {
   return worst;
 }
 
+double highest_frequency(const DispersionStudy& study) {
+  double most = 0.0;
+  for (const DispersionPanel& panel : study.panels) {
+    if (!panel.slug.starts_with("dem")) continue;
+    for (const DispersionBranch& b : panel.branches) most = std::max(most, *std::max_element(b.exact.begin(), b.exact.end()));
+  }
+  return 1.15 * most;
+}
+
 DispersionStudy study_dispersion(const StripCampaign& s, bool with_fem) {
   DispersionStudy study{kZoneBoundary, {}};
   ContactParameters contact;
@@ -189,6 +211,10 @@ DispersionStudy study_dispersion(const StripCampaign& s, bool with_fem) {
     }
   }
   if (with_fem) add_continuum(study, closed_form(s), kSampleEvery * kStepFraction * 2.0 / largest_frequency(a, contact, {}));
+  const double highest = highest_frequency(study);
+  for (DispersionPanel& panel : study.panels) {
+    panel.spectrum = panel.failure.empty() && highest > 0.0 ? coarse(panel.spectrum, highest) : FkSpectrum{};
+  }
   return study;
 }
 

@@ -29,7 +29,9 @@ struct DispersionPanel {
   std::string system;   ///< "DEM", "DDEM F implicit", "DDEM F", "finite elements", "finite elements, free edges"
   std::string slug;
   std::string failure;  ///< empty: ok
-  FkSpectrum spectrum;  ///< of all components together; empty where it failed
+  /// Of all components together, coarse as it is shown: the largest amplitude of each band of frequencies up to
+  /// highest_frequency(); empty where it failed. Crests are found in the whole one.
+  FkSpectrum spectrum;
   std::vector<DispersionBranch> branches;
 };
 
@@ -37,6 +39,9 @@ struct DispersionStudy {
   double zone_boundary = 0.0;  ///< pi over the spacing of columns, 1/m
   std::vector<DispersionPanel> panels;
 };
+
+/// That all panels are shown up to, rad/s: a little above the branches of rigid discs.
+double highest_frequency(const DispersionStudy& study);
 
 /// k_t/k_n = 0.3, discs of the campaign. `with_fem`: the continuum too. Deterministic.
 DispersionStudy study_dispersion(const StripCampaign& campaign, bool with_fem);

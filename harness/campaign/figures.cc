@@ -24,12 +24,6 @@ reports::Color color_of(Model model) {
   return reports::Color::automatic;
 }
 
-/// The ratio whose signals are drawn: the one nearest to 0.3.
-double shown_ratio(const CampaignResults& r) {
-  const auto& ratios = r.campaign.stiffness_ratios;
-  return *std::min_element(ratios.begin(), ratios.end(), [](double a, double b) { return std::abs(a - 0.3) < std::abs(b - 0.3); });
-}
-
 std::vector<double> times(const Recording& recording, std::size_t samples) {
   std::vector<double> t(samples);
   for (std::size_t n = 0; n < samples; ++n) t[n] = static_cast<double>(n) * recording.sample_interval;
@@ -169,12 +163,17 @@ reports::Figure strip_figure(const CampaignResults& r) {
           .panels = {strip}};
 }
 
+double shown_ratio(const StripCampaign& s) {
+  const auto& ratios = s.stiffness_ratios;
+  return *std::min_element(ratios.begin(), ratios.end(), [](double a, double b) { return std::abs(a - 0.3) < std::abs(b - 0.3); });
+}
+
 reports::Figure paper_figure(const CampaignResults& r) {
   reports::Figure figure{.id = "paper-signals",
                          .title = "Displacement over time at pairs A and B, column release",
                          .caption = "Full line: the disc nearer to the source, dashed: the one further on. Rings: the picked peaks, whose delay gives the "
                                     "velocity of the pair. First seed, plain DEM; the other three pairs are in results.h5."};
-  const double ratio = shown_ratio(r);
+  const double ratio = shown_ratio(r.campaign);
   for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
     const WaveOutcome* w = r.find(StripCase{StripPacking::random, r.campaign.seeds.front(), r.campaign.models.front(), ratio, Protocol::paper, wave});
     reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
@@ -199,7 +198,7 @@ reports::Figure waveform_figure(const CampaignResults& r) {
                          .title = "Particles over continuum: a driven pulse at two sections",
                          .caption = "Full lines: particles, averaged over the discs of a section. Dashed: finite elements with the static moduli of the same "
                                     "packing. Where the strains of the discs lag by a step, they damp the pulse a little."};
-  const double ratio = shown_ratio(r);
+  const double ratio = shown_ratio(r.campaign);
   for (const StripWave wave : {StripWave::bar, StripWave::shear}) {
     reports::Plot plot{.title = fmt::format("{}, kₜ/kₙ = {:g}", name(wave), ratio), .x = {.label = "time", .unit = "s"}, .y = {.label = "displacement", .unit = "m"}};
     for (const Model model : r.campaign.models) {

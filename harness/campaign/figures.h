@@ -22,6 +22,9 @@ struct PoissonCurve {
 };
 PoissonCurve poisson_curve(const CampaignResults& results, Model model);
 
+/// The k_t/k_n whose signals are drawn: the one nearest to 0.3.
+double shown_ratio(const StripCampaign& campaign);
+
 reports::Figure poisson_figure(const CampaignResults& results);
 reports::Figure velocity_figure(const CampaignResults& results);
 reports::Figure strip_figure(const CampaignResults& results);

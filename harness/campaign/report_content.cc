@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "harness/bench/bench_report.h"
+#include "harness/campaign/calibration_study.h"
+#include "harness/campaign/design_figure.h"
 #include "harness/campaign/dispersion_figures.h"
 #include "harness/campaign/facets.h"
 #include "harness/campaign/figures.h"
@@ -164,6 +166,17 @@ reports::Section paper(const CampaignResults& r) {
           .tables = {speed_table(r, Protocol::paper), paper_poisson_table(r)}};
 }
 
+reports::Section calibration(const CampaignResults& r) {
+  return {.heading = "Contacts for a material that you want",
+          .paragraphs = {"Targets were calibrated as ddem calibrate does: kₙ by scale, kₜ/kₙ (and the discs' softness and νₚ) by "
+                         "Newton's method on static moduli. "
+                         "In the lattice what was found must be the closed form. In random packings the contacts found are put into scenes, and the "
+                         "moduli of these are measured anew: of the packings that were fitted, and of others, which scatter. A target "
+                         "out of reach must be refused."},
+          .figures = {design_figure(r)},
+          .tables = {calibration_table(r.calibrations)}};
+}
+
 /// What lacks results cannot always be drawn: the report is there all the same, and says so.
 void leave_out_undrawable(reports::Section& section) {
   std::erase_if(section.figures, [&](const reports::Figure& figure) {
@@ -198,6 +211,7 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
   if (r.film) report.sections[1].figures.push_back(energy_figure(*r.film));
   if (r.dispersion) report.sections[1].figures.push_back(dispersion_figure(*r.dispersion));
   if (r.sizes) report.sections.push_back(sizes(r));
+  if (!r.calibrations.empty()) report.sections.push_back(calibration(r));
   if (r.schemes) report.sections.push_back(schemes(r));
   if (!r.stability_maps.empty()) report.sections.push_back(stability(r));
   if (!r.work_precision.empty()) report.sections.push_back(bench::precision_section(r.work_precision));

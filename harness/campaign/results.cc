@@ -25,6 +25,20 @@ const FemOutcome* CampaignResults::find(const StripMaterial& material, StripWave
   return it == fem.end() ? nullptr : &*it;
 }
 
+Recording thinned(const Recording& recording) {
+  constexpr std::size_t kSamples = 300;
+  Recording out = recording;
+  if (recording.signals.empty()) return out;
+  const std::size_t stride = std::max<std::size_t>(1, recording.signals.front().values.size() / kSamples);
+  out.sample_interval = recording.sample_interval * static_cast<double>(stride);
+  for (PickedSignal& s : out.signals) {
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < s.values.size(); n += stride) s.values[kept++] = s.values[n];
+    s.values.resize(kept);
+  }
+  return out;
+}
+
 Model continuum_model(const StripCampaign& campaign, Model model) {
   const bool has_lagged = std::find(campaign.models.begin(), campaign.models.end(), Model::lagged_full) != campaign.models.end();
   return model == Model::implicit_full && has_lagged ? Model::lagged_full : model;

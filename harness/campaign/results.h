@@ -8,6 +8,8 @@
 
 #include "dem/statics/moduli.h"
 #include "harness/bench/precision.h"
+#include "harness/campaign/calibration_study.h"
+#include "harness/campaign/design_study.h"
 #include "harness/campaign/discrimination_study.h"
 #include "harness/campaign/dispersion_study.h"
 #include "harness/campaign/range_study.h"
@@ -67,6 +69,9 @@ struct Recording {
   double sample_interval = 0.0;  ///< s
   std::vector<PickedSignal> signals;
 };
+
+/// Every so many samples, 300 to 600 of each signal: what is stored of a recording, and more than a figure shows.
+Recording thinned(const Recording& recording);
 
 /// One simulation.
 struct WaveOutcome {
@@ -130,6 +135,8 @@ struct CampaignResults {
   std::vector<FemOutcome> fem;
   std::optional<SchemeStudy> schemes;  ///< empty: not asked for
   std::optional<RangeStudy> range;
+  std::vector<CalibrationOutcome> calibrations;  ///< one each of calibration_cases()
+  std::optional<DesignStudy> design;
   std::vector<bench::PrecisionPoint> work_precision;  ///< of a small measurement, for the report's figure; no verdict
   std::vector<StabilityMap> stability_maps;
   std::optional<DispersionStudy> dispersion;

@@ -128,6 +128,14 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PoissonRange, lowest, highest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RangeCurve, particle_poisson_ratio, ranges)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RangeStudy, failure, softness, rigid, curves)
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibratedPacking, seed, young_modulus, poisson_ratio)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationOutcome, id, failure, target_young, target_poisson, feasible,
+                                   stiffness_ratio, normal_stiffness, softness, particle_poisson_ratio,
+                                   highest_rigid, highest_implicit, fitted, unseen)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DesignPoint, young_over_stiffness, poisson_ratio)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SoftnessCurve, particle_poisson_ratio, random, lattice)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DesignStudy, stiffness_ratio, softness, curves)
+
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StabilityKey, packing, scheme, correction, stiffness_ratio,
                                    particle_poisson_ratio)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StabilityPoint, softness, step_fraction, predicted, measured, noise_grew,

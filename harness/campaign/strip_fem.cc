@@ -32,7 +32,7 @@ void take_result(FemOutcome& f, const FemPlan& plan, const FemResult& result) {
   const auto measurement = measure_wave(signals, result.sample_interval, plan.layout, plan.context);
   std::optional<double> unused;
   take_speed(measurement, f.speed, unused, f.failure);
-  f.recording = record(signals, result.sample_interval, plan.layout, plan.context, measurement);
+  f.recording = thinned(record(signals, result.sample_interval, plan.layout, plan.context, measurement));
 }
 
 }  // namespace

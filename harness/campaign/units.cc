@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "harness/bench/bench.h"
+#include "harness/campaign/figures.h"
 #include "harness/campaign/noise_release.h"
 #include "harness/campaign/results_json.h"
 #include "harness/campaign/strip_fem.h"
@@ -39,7 +40,7 @@ json inputs_of(const StripCampaign& s, const StripMaterial& m) {
   alone.full_stability = false;
   json inputs = inputs_of(alone);
   inputs["solved_as"] = continuum_model(s, m.model);
-  inputs["for_figures"] = {m.seed == s.seeds.front(), shows_strip(s, m)};
+  inputs["for_figures"] = {m.seed == s.seeds.front(), shows_strip(s, m), m.stiffness_ratio == shown_ratio(s)};
   return inputs;
 }
 
@@ -55,9 +56,21 @@ auto taking(const Take& take) {
   return [take](const json& j, CampaignResults& r) { take(j.get<Result>(), r); };
 }
 
+/// Of a released column's short waves a figure shows every sample, at one ratio; driven pulses are smooth.
+void keep_shown(const StripCampaign& s, MaterialOutcome& m) {
+  for (WaveOutcome& w : m.waves) {
+    const bool whole = w.c.protocol == Protocol::paper && w.c.stiffness_ratio == shown_ratio(s);
+    if (!whole) w.recording = thinned(w.recording);
+  }
+}
+
 CampaignUnit material_unit(const SharedCampaign& c, const StripMaterial& m, std::size_t k,
                            std::size_t first_wave) {
-  const auto run = [c, m] { return json(run_material(c->campaign, m, c->statics, c->options)); };
+  const auto run = [c, m] {
+    MaterialOutcome found = run_material(c->campaign, m, c->statics, c->options);
+    keep_shown(c->campaign, found);
+    return json(found);
+  };
   const auto take = [k, first_wave](MaterialOutcome&& found, CampaignResults& r) {
     if (found.waves.size() != cases_of(found.statics.key).size() || found.statics.key != r.statics[k].key) {
       throw std::runtime_error("the result is another material's");
@@ -130,6 +143,23 @@ void add_sizes(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
   }
 }
 
+void add_calibrations(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
+  const std::string inputs = inputs_of(c->campaign).dump();
+  const auto cases = calibration_cases();
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    units.push_back(
+        {{id_of(cases[k]), inputs, 1,
+          [c, one = cases[k]] { return json(study_calibration(c->campaign, one, c->options)); }},
+         taking<CalibrationOutcome>(
+             [k](CalibrationOutcome&& found, CampaignResults& r) { r.calibrations[k] = std::move(found); }),
+         [k](const std::string& reason, CampaignResults& r) { r.calibrations[k].failure = reason; }});
+  }
+  units.push_back({{"design-curves", inputs, 1, [c] { return json(study_design(c->campaign)); }},
+                   taking<DesignStudy>(
+                       [](DesignStudy&& found, CampaignResults& r) { r.design = std::move(found); }),
+                   [](const std::string&, CampaignResults& r) { r.design.reset(); }});
+}
+
 void add_studies(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
   const std::string inputs = inputs_of(c->campaign).dump();
   const auto done = [c] {
@@ -198,6 +228,10 @@ CampaignResults empty_results(const StripCampaign& s, const CampaignOptions& opt
   if (!options.with_studies) return r;
   r.schemes.emplace().failure = not_run;
   r.range.emplace().failure = not_run;
+  for (const CalibrationCase& c : calibration_cases()) {
+    r.calibrations.emplace_back().id = id_of(c);
+    r.calibrations.back().failure = not_run;
+  }
   if (SizeStudy sizes = plan_sizes(s); !sizes.strips.empty()) r.sizes = std::move(sizes);
   if (r.sizes) {
     for (SizedStrip& strip : r.sizes->strips) strip.failure = not_run;
@@ -216,6 +250,7 @@ std::vector<CampaignUnit> units_of(const StripCampaign& s, const CampaignOptions
   if (options.with_studies) {
     add_sizes(c, units);
     add_studies(c, units);
+    add_calibrations(c, units);
     add_maps(c, units);
   }
   add_film(c, units);

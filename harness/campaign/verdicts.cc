@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/campaign/criteria.h"
 #include "harness/campaign/dispersion_figures.h"
 #include "harness/campaign/stability_figures.h"
 #include "harness/campaign/paper_bias.h"
@@ -17,33 +18,6 @@ namespace {
 using reports::Criterion;
 using reports::State;
 using reports::Verdict;
-
-/// A measured value against a target with bounds relative to it or absolute.
-struct Bounds {
-  double target, lower, upper;
-};
-
-Criterion judge(const std::string& metric, std::optional<double> actual, const Bounds& b, const std::string& unit, const std::string& derivation) {
-  Criterion c{.metric = metric, .target = b.target, .lower = b.lower, .upper = b.upper, .unit = unit, .derivation = derivation};
-  if (actual && std::isfinite(*actual)) {
-    c.actual = *actual;
-    c.state = *actual >= b.lower && *actual <= b.upper ? State::pass : State::fail;
-  }
-  return c;
-}
-
-Bounds relative(double target, double below, double above) { return {target, target * (1.0 - below), target * (1.0 + above)}; }
-Bounds absolute(double target, double tolerance) { return {target, target - tolerance, target + tolerance}; }
-
-/// The case fails if a criterion does; an error (nothing measured) is worse than a failure.
-void conclude(Verdict& v) {
-  v.state = State::pass;
-  for (const State worse : {State::fail, State::error}) {
-    for (const Criterion& c : v.criteria) {
-      if (c.state == worse) v.state = worse;
-    }
-  }
-}
 
 std::string title_of(const StripMaterial& key, const std::string& what) {
   return fmt::format("{}, {}, k_t/k_n = {:g}", what, name(key.model), key.stiffness_ratio);
@@ -226,12 +200,6 @@ Verdict fem_verdict(const CampaignResults& r, const FemOutcome& f) {
   return v;
 }
 
-/// A study that failed has measured nothing.
-void conclude_study(Verdict& v) {
-  conclude(v);
-  if (!v.reason.empty()) v.state = State::error;
-}
-
 /// What the schemes are chosen by: energy, order in the step, reach.
 Verdict energy_verdict(const SchemeStudy& study) {
   Verdict v{.case_id = "schemes/energy", .title = "Energy over 10000 steps", .reason = study.failure};
@@ -354,6 +322,7 @@ std::vector<Verdict> verdicts_of(const CampaignResults& r) {
   if (r.sizes) {
     for (const auto& verdict : {size_bias_verdict, size_wave_verdict}) verdicts.push_back(verdict(*r.sizes));
   }
+  for (const CalibrationOutcome& o : r.calibrations) verdicts.push_back(calibration_verdict(r.campaign, o));
   if (r.discrimination) verdicts.push_back(discrimination_verdict(*r.discrimination));
   for (const CaseResult& c : r.cases) verdicts.push_back(case_verdict(c));
   for (const auto& [id, reason] : r.failed_units) {

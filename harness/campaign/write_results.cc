@@ -18,21 +18,18 @@
 namespace ddem::harness {
 namespace {
 
-constexpr std::size_t kStoredSamples = 300;  // of a signal; a wave run has some thousands
-
 void set_finite(Hdf5Group& g, const std::string& name, std::optional<double> value) {
   if (value && std::isfinite(*value)) g.set_attribute(name, *value);
 }
 
 /// signals: probe x sample; a pick that failed has its reason in pick_status and is not in pick_time.
-void write_recording(Hdf5Group& parent, const Recording& recording) {
-  if (recording.signals.empty()) return;
-  const std::size_t samples = recording.signals.front().values.size();
-  const std::size_t stride = std::max<std::size_t>(1, samples / kStoredSamples);
+void write_recording(Hdf5Group& parent, const Recording& whole) {
+  if (whole.signals.empty()) return;
+  const Recording recording = thinned(whole);
   std::vector<double> values, distance, pick_time, pick_amplitude;
   std::vector<std::string> probes, pick_status;
   for (const PickedSignal& s : recording.signals) {
-    for (std::size_t n = 0; n < samples; n += stride) values.push_back(s.values[n]);
+    values.insert(values.end(), s.values.begin(), s.values.end());
     probes.push_back(s.probe);
     distance.push_back(s.x);
     pick_status.push_back(s.pick_time ? "ok" : s.pick_failure);
@@ -42,7 +39,7 @@ void write_recording(Hdf5Group& parent, const Recording& recording) {
   Hdf5Group g = parent.create_group("recording");
   Hdf5Dataset signals = g.write("signals", values, {recording.signals.size(), values.size() / recording.signals.size()});
   signals.set_attribute("unit", "m");
-  signals.set_attribute("sample_interval", recording.sample_interval * static_cast<double>(stride));
+  signals.set_attribute("sample_interval", recording.sample_interval);
   g.write("probes", probes);
   g.write("distance_from_source", distance).set_attribute("unit", "m");
   g.write("pick_status", pick_status);
@@ -144,6 +141,52 @@ void write_range(Hdf5Group& parent, const RangeStudy& study) {
   }
 }
 
+/// One group a case: what was found, and the moduli of fitted and other packings with it.
+void write_calibrations(Hdf5Group& parent, const std::vector<CalibrationOutcome>& outcomes) {
+  for (const CalibrationOutcome& o : outcomes) {
+    Hdf5Group g = parent.create_group(group_name(o.id));
+    g.set_attribute("status", o.failure.empty() ? std::string("ok") : o.failure);
+    if (!o.failure.empty()) continue;
+    g.set_attribute("target_young_modulus", o.target_young);
+    g.set_attribute("target_poisson_ratio", o.target_poisson);
+    g.set_attribute("feasible", static_cast<std::int64_t>(o.feasible));
+    g.set_attribute("stiffness_ratio", o.stiffness_ratio);
+    g.set_attribute("normal_stiffness", o.normal_stiffness);
+    if (o.softness > 0.0) {
+      g.set_attribute("softness", o.softness);
+      g.set_attribute("particle_poisson_ratio", o.particle_poisson_ratio);
+    }
+    const auto write = [&](const std::string& which, const std::vector<CalibratedPacking>& packings) {
+      if (packings.empty()) return;
+      std::vector<double> seed, young, poisson;
+      for (const CalibratedPacking& p : packings)
+        seed.push_back(static_cast<double>(p.seed)), young.push_back(p.young_modulus), poisson.push_back(p.poisson_ratio);
+      g.write(which + "_seed", seed);
+      g.write(which + "_young_modulus", young).set_attribute("unit", "Pa");
+      g.write(which + "_poisson_ratio", poisson);
+    };
+    write("fitted", o.fitted);
+    write("unseen", o.unseen);
+  }
+}
+
+/// softness; for each nu_p E/k_n and nu, one a softness, of the first random packing and of the lattice.
+void write_design(Hdf5Group& parent, const DesignStudy& study) {
+  parent.set_attribute("stiffness_ratio", study.stiffness_ratio);
+  parent.write("softness", study.softness);
+  for (const SoftnessCurve& c : study.curves) {
+    Hdf5Group g = parent.create_group(fmt::format("particle_poisson_ratio {:g}", c.particle_poisson_ratio));
+    const auto write = [&](const std::string& which, const std::vector<DesignPoint>& points) {
+      std::vector<double> young, poisson;
+      for (const DesignPoint& p : points) young.push_back(p.young_over_stiffness), poisson.push_back(p.poisson_ratio);
+      g.write(which + "_young_over_stiffness", young).set_attribute("unit", "1/m");
+      g.write(which + "_poisson_ratio", poisson);
+    };
+    write("random", c.random);
+    write("lattice", c.lattice);
+  }
+}
+
 /// One group a strip: bias/strip_speed, bulk_speed, one a stiffness ratio; measured speeds, their static reference and S0.
 void write_sizes(Hdf5Group& parent, const SizeStudy& study) {
   parent.write("stiffness_ratios", study.stiffness_ratios);
@@ -192,6 +235,14 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r, c
     if (r.range) {
       Hdf5Group range = root.create_group("poisson_range");
       write_range(range, *r.range);
+    }
+    if (!r.calibrations.empty()) {
+      Hdf5Group calibrations = root.create_group("calibrations");
+      write_calibrations(calibrations, r.calibrations);
+    }
+    if (r.design) {
+      Hdf5Group design = root.create_group("design_curves");
+      write_design(design, *r.design);
     }
     if (r.sizes) {
       Hdf5Group sizes = root.create_group("sizes");

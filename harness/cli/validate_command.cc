@@ -28,7 +28,7 @@ struct Options {
 /// A study's case.
 bool is_study(const std::string& id) {
   const auto begins = [&id](const char* study) { return id.starts_with(study); };
-  constexpr std::array studies{"discrimination", "schemes/", "stability-map/", "dispersion/", "sizes/"};
+  constexpr std::array studies{"discrimination", "schemes/", "stability-map/", "dispersion/", "sizes/", "calibration/"};
   return std::any_of(studies.begin(), studies.end(), begins);
 }
 

@@ -76,6 +76,7 @@ TEST(Campaign, PassesUndisturbed) {
   EXPECT_EQ(failures(verdicts), "");
   EXPECT_EQ(r.fem_failure, "");
   for (const char* study : {"schemes/energy", "schemes/order", "schemes/reach", "schemes/range", "dispersion/implicit-full",
+                            "calibration/random/implicit-full/nu0.42",
                             "stability-map/random/lagged-full/kt0.30/nu0.30", "sizes/bias", "sizes/waves"}) {
     EXPECT_FALSE(verdict(verdicts, study).criteria.empty()) << study;
   }

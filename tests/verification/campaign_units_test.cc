@@ -58,6 +58,8 @@ TEST(ResultsJson, NamesEveryMember) {
   EXPECT_ALL_MEMBERS(OrderCurve);
   EXPECT_ALL_MEMBERS(SchemeStudy);
   EXPECT_ALL_MEMBERS(RangeStudy);
+  EXPECT_ALL_MEMBERS(CalibrationOutcome);
+  EXPECT_ALL_MEMBERS(DesignStudy);
   EXPECT_ALL_MEMBERS(StabilityPoint);
   EXPECT_ALL_MEMBERS(StabilityMap);
   EXPECT_ALL_MEMBERS(DispersionBranch);

@@ -1,0 +1,39 @@
+#include "harness/campaign/criteria.h"
+
+#include <cmath>
+
+namespace ddem::harness {
+
+using reports::Criterion;
+using reports::State;
+
+Criterion judge(const std::string& metric, std::optional<double> actual, const Bounds& b,
+                const std::string& unit, const std::string& derivation) {
+  Criterion c{.metric = metric,
+              .target = b.target,
+              .lower = b.lower,
+              .upper = b.upper,
+              .unit = unit,
+              .derivation = derivation};
+  if (actual && std::isfinite(*actual)) {
+    c.actual = *actual;
+    c.state = *actual >= b.lower && *actual <= b.upper ? State::pass : State::fail;
+  }
+  return c;
+}
+
+void conclude(reports::Verdict& v) {
+  v.state = State::pass;
+  for (const State worse : {State::fail, State::error}) {
+    for (const Criterion& c : v.criteria) {
+      if (c.state == worse) v.state = worse;
+    }
+  }
+}
+
+void conclude_study(reports::Verdict& v) {
+  conclude(v);
+  if (!v.reason.empty()) v.state = State::error;
+}
+
+}  // namespace ddem::harness
