@@ -179,10 +179,11 @@ void leave_out_undrawable(reports::Section& section) {
 
 }  // namespace
 
-reports::Report report_of(const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
+reports::Report report_of(const CampaignResults& r, const std::vector<reports::Verdict>& verdicts,
+                          const std::vector<reports::Section>& more) {
   const StripCampaign& s = r.campaign;
   reports::Report report;
-  if (!r.has_strip) return {.title = "Campaign", .verdicts = verdicts, .provenance = provenance()};
+  if (!r.has_strip) return {.title = "Campaign", .verdicts = verdicts, .sections = more, .provenance = provenance()};
   report.title = s.title;
   report.summary = {fmt::format("Strips of {:g} mm × {:g} mm: {} random discs (coordination {:g}, seeds {}) and a hexagonal lattice of {} × {}; "
                                 "disc density {:g} kg/m³, kₙ = {:g} N/m, kₙ/Eₚ = {:g}, νₚ = {:g}. DDEM N and F are the published "
@@ -207,6 +208,7 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
                                               "keep the right ones."},
                                .tables = {discrimination_table(*r.discrimination)}});
   }
+  report.sections.insert(report.sections.end(), more.begin(), more.end());
   report.sections.push_back(formulas_section());
   for (reports::Section& section : report.sections) leave_out_undrawable(section);
   report.provenance = provenance();
