@@ -6,10 +6,23 @@
   const symbols = { circle: 'circle', square: 'square', triangle: 'triangle-up', diamond: 'diamond' };
   const coarse = window.matchMedia('(pointer: coarse)').matches;
 
+  // Three bytes a number, the first ones of its single precision; what is not finite is null.
+  const unpacked = (text) => {
+    const bytes = atob(text),
+      bits = new DataView(new ArrayBuffer(4));
+    return Array.from({ length: bytes.length / 3 }, (_, i) => {
+      for (let k = 0; k < 3; ++k) bits.setUint8(k, bytes.charCodeAt(3 * i + k));
+      const value = bits.getFloat32(0);
+      return Number.isFinite(value) ? Number(value.toPrecision(6)) : null;
+    });
+  };
+
   const readFigure = (script) => {
     const { figure, arrays } = JSON.parse(script.textContent);
-    const array = (a) => (Array.isArray(a) ? a : Array.from({ length: a.count }, (_, i) => a.from + i * a.step));
+    const array = (a) =>
+      Array.isArray(a) ? a : 'packed' in a ? unpacked(a.packed) : Array.from({ length: a.count }, (_, i) => a.from + i * a.step);
     const values = arrays.map(array);
+    figure.digits = arrays.some((a) => 'packed' in a) ? 'five' : 'six';
     const take = (owner, ...keys) => {
       for (const key of keys) owner[key] = key in owner ? values[owner[key]] : [];
     };
@@ -318,7 +331,7 @@
       .querySelector('.csv')
       ?.replaceChildren(
         link,
-        figure.thinned ? ' (SI units, six digits; long series are thinned, their extremes kept)' : ' (SI units, six digits, all points)',
+        ` (SI units, ${figure.digits} digits${figure.thinned ? '; long series are thinned, their extremes kept' : ', all points'}; all digits are in figures/${figure.id}.csv beside this page)`,
       );
   };
 
