@@ -19,17 +19,25 @@ constexpr std::size_t kDrawnNights = 101, kPanels = 8, kRows = 60;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kNightAxis = "night (0: this one)";
 
-/// Values of a night to those of an axis: distance from right over half the accuracy band.
-struct Margin {
-  double right = 0.0, half_width = 0.0;
-
-  explicit Margin(const Criterion& c) : half_width(nightly::half_width(c)) {
+/// From values to an axis on which 0 is right (the target, else the middle of the band, else 0) and a limit is at -1 or 1, also where
+/// right is not in the middle. Where a side has no limit the scale is that of the other.
+class Margin {
+ public:
+  explicit Margin(const Criterion& c) : half_width_(half_width(c)) {
     if (std::isfinite(c.target))
-      right = c.target;
+      right_ = c.target;
     else if (std::isfinite(c.lower) && std::isfinite(c.upper))
-      right = 0.5 * (c.lower + c.upper);
+      right_ = 0.5 * (c.lower + c.upper);
+    above_ = scale(c.upper - right_);
+    below_ = scale(right_ - c.lower);
   }
-  double of(double value) const { return (value - right) / half_width; }
+  bool has_scale() const { return half_width_ > 0.0; }
+  double of(double value) const { return (value - right_) / (value > right_ ? above_ : below_); }
+
+ private:
+  double scale(double width) const { return std::isfinite(width) && width > 0.0 ? width : half_width_; }
+
+  double right_ = 0.0, half_width_ = 0.0, above_ = 0.0, below_ = 0.0;
 };
 
 using Criteria = std::map<std::string, Criterion>;
@@ -113,6 +121,19 @@ std::vector<double> places_before(const std::vector<double>& x, const std::vecto
   return places;
 }
 
+/// A limit far from the nights would flatten what they do.
+void add_near_limits(reports::Plot& plot, const Criterion& c, const Margin& margin) {
+  double lowest = 0.0, highest = 0.0;
+  for (const double y : plot.series.front().y) {
+    if (std::isfinite(y)) lowest = std::min(lowest, y), highest = std::max(highest, y);
+  }
+  const double room = 0.5 * (highest - lowest);
+  for (const auto& [bound, label] : {std::pair(c.lower, "lower limit"), std::pair(c.upper, "upper limit")}) {
+    const double place = margin.of(bound);
+    if (std::isfinite(bound) && place > lowest - room && place < highest + room) plot.references.push_back({.value = place, .label = label});
+  }
+}
+
 reports::Plot metric_panel(const Drawn& drawn, const Trend& t) {
   const std::string key = metric_key(t.case_id, t.metric);
   const Criterion& c = drawn.nights.back().at(key);
@@ -121,14 +142,12 @@ reports::Plot metric_panel(const Drawn& drawn, const Trend& t) {
   const std::string state = t.regressed ? "REGRESSED: " : passed(t) ? "" : std::string(reports::to_string(t.state)) + ": ";
   reports::Plot plot{.title = fmt::format("{}{}: {}", state, t.case_id, t.metric),
                      .x = {.label = kNightAxis},
-                     .y = {.label = "(value − right) / half band"}};
+                     .y = {.label = "distance from right / half band"}};
   reports::Series series{.name = "night", .kind = reports::SeriesKind::line_markers, .x = drawn.x, .color = Color::black};
   for (const double v : values) series.y.push_back(margin.of(v));
   plot.series.push_back(std::move(series));
   plot.bands = bands_of(t, places_before(drawn.x, values), [&](double v) { return margin.of(v); });
-  for (const auto& [bound, label] : {std::pair(c.lower, "lower limit"), std::pair(c.upper, "upper limit")}) {
-    if (std::isfinite(bound)) plot.references.push_back({.value = margin.of(bound), .label = label});
-  }
+  add_near_limits(plot, c, margin);
   return plot;
 }
 
@@ -139,8 +158,8 @@ reports::Figure metrics_figure(const Drawn& drawn, const std::vector<Trend>& tre
   const auto regressed = std::count_if(trends.begin(), trends.end(), [](const Trend& t) { return t.regressed; });
   figure.caption = fmt::format(
       "{} of {} metrics: those that regressed ({}) first, the furthest beyond their scatter leading; then those that did not pass, changed, "
-      "or are nearest to their limits. 0 is right (the target, else the middle of the band), and ±1 ends the accuracy band; of a band "
-      "with one limit the scale is that limit's distance from right. A last point outside a shaded band has changed: bands are the median "
+      "or are nearest to their limits. 0 is right (the target, else the middle of the band), and ±1 ends the accuracy band; limits "
+      "are drawn where the nights come near them. A last point outside a shaded band has changed: bands are the median "
       "of up to 4, 20 and 100 nights before, ± three standard deviations by the median step between nights, at least 1 % of the half band.",
       panels, trends.size(), regressed);
   return figure;
@@ -154,7 +173,7 @@ reports::Figure margins_figure(const Drawn& drawn) {
     for (const auto& [key, c] : drawn.nights[k]) {
       const Margin margin(c);
       const bool two_sided = std::isfinite(c.target) || (std::isfinite(c.lower) && std::isfinite(c.upper));
-      if (!std::isfinite(c.actual) || margin.half_width <= 0.0 || (!two_sided && !std::isfinite(c.upper))) continue;
+      if (!std::isfinite(c.actual) || !margin.has_scale() || (!two_sided && !std::isfinite(c.upper))) continue;
       std::vector<double>& check = worst.try_emplace(key.substr(0, key.find_first_of("/ ")), drawn.nights.size(), kNone).first->second;
       const double share = two_sided ? std::abs(margin.of(c.actual)) : margin.of(c.actual);
       if (!(share <= check[k])) check[k] = share;
@@ -237,8 +256,10 @@ std::vector<Trend> most_urgent(const std::vector<Night>& nights) {
   std::vector<std::pair<double, Trend>> ranked;  // with the distance from right
   for (Trend& t : trends_of(nights)) {
     const auto found = last.find(metric_key(t.case_id, t.metric));
-    if (found == last.end() || !(half_width(found->second) > 0.0)) continue;
-    const double distance = std::abs(Margin(found->second).of(t.now));
+    if (found == last.end()) continue;
+    const Margin margin(found->second);
+    if (!margin.has_scale()) continue;
+    const double distance = std::abs(margin.of(t.now));
     ranked.emplace_back(std::isfinite(distance) ? distance : 0.0, std::move(t));
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
