@@ -130,7 +130,8 @@ void add_near_limits(reports::Plot& plot, const Criterion& c, const Margin& marg
   const double room = 0.5 * (highest - lowest);
   for (const auto& [bound, label] : {std::pair(c.lower, "lower limit"), std::pair(c.upper, "upper limit")}) {
     const double place = margin.of(bound);
-    if (std::isfinite(bound) && place > lowest - room && place < highest + room) plot.references.push_back({.value = place, .label = label});
+    if (std::isfinite(bound) && place > lowest - room && place < highest + room)
+      plot.references.push_back({.value = place, .label = label});
   }
 }
 
@@ -157,7 +158,8 @@ reports::Figure metrics_figure(const Drawn& drawn, const std::vector<Trend>& tre
   for (std::size_t k = 0; k < panels; ++k) figure.panels.emplace_back(metric_panel(drawn, trends[k]));
   const auto regressed = std::count_if(trends.begin(), trends.end(), [](const Trend& t) { return t.regressed; });
   figure.caption = fmt::format(
-      "{} of {} metrics: those that regressed ({}) first, the furthest beyond their scatter leading; then those that did not pass, changed, "
+      "{} of {} metrics: those that regressed ({}) first, the furthest beyond their scatter leading; then those that did not pass, "
+      "changed, "
       "or are nearest to their limits. 0 is right (the target, else the middle of the band), and ±1 ends the accuracy band; limits "
       "are drawn where the nights come near them. A last point outside a shaded band has changed: bands are the median "
       "of up to 4, 20 and 100 nights before, ± three standard deviations by the median step between nights, at least 1 % of the half band.",
@@ -184,8 +186,9 @@ reports::Figure margins_figure(const Drawn& drawn) {
   plot.references = {{.value = 1.0, .label = "accepted up to here"}};
   return {.id = "history-margins",
           .title = "How much of the accuracy bands is used, over nights",
-          .caption = "Of every check the metric that is furthest from right, as a share of half its accuracy band on that night. A line that "
-                     "climbs towards 1 is a result that gets worse, long before it fails.",
+          .caption =
+              "Of every check the metric that is furthest from right, as a share of half its accuracy band on that night. A line that "
+              "climbs towards 1 is a result that gets worse, long before it fails.",
           .panels = {plot}};
 }
 
@@ -219,10 +222,11 @@ reports::Figure work_figure(const std::vector<Night>& nights, const std::vector<
   time.bands = bands_of(wall, as_much, [](double v) { return v; });
   return {.id = "history-work",
           .title = "Wall time and work over nights",
-          .caption = fmt::format("Left: seconds, and what is no change of them: the median of nights with as much work, ± its scatter, at least "
-                                 "20 %. {} Right: counts that no machine changes; a night that is slow at the same counts was slowed down, not "
-                                 "larger.",
-                                 wall.regressed ? "This night was slower." : "This night was not slower."),
+          .caption =
+              fmt::format("Left: seconds, and what is no change of them: the median of nights with as much work, ± its scatter, at least "
+                          "20 %. {} Right: counts that no machine changes; a night that is slow at the same counts was slowed down, not "
+                          "larger.",
+                          wall.regressed ? "This night was slower." : "This night was not slower."),
           .panels = {time, counts_panel(nights, x)}};
 }
 
@@ -243,9 +247,10 @@ reports::Table changes_table(const std::vector<Trend>& trends) {
   table.caption = noteworthy == 0 ? "No metric regressed, failed or changed beyond its scatter."
                   : noteworthy <= kRows
                       ? "What regressed, did not pass or changed beyond its scatter: difference from the median of the nights before."
-                      : fmt::format("The first {} of {} that regressed, did not pass or changed beyond their scatter: difference from the "
-                                    "median of the nights before; ddem history lists all.",
-                                    kRows, noteworthy);
+                      : fmt::format(
+                            "The first {} of {} that regressed, did not pass or changed beyond their scatter: difference from the "
+                            "median of the nights before; ddem history lists all.",
+                            kRows, noteworthy);
   return table;
 }
 
@@ -281,10 +286,11 @@ reports::Section history_section(const std::vector<Night>& nights) {
   const std::vector<Trend> urgent = most_urgent(nights);
   const Trend wall = trends_of(nights).back();
   const auto regressed = std::count_if(urgent.begin(), urgent.end(), [](const Trend& t) { return t.regressed; });
-  section.paragraphs = {fmt::format(
-      "{} nights, {} to {}; {} metrics with an accuracy band, {} of them regressed: worse than the median of the 4, 20 or 100 nights before "
-      "by more than those nights scatter.",
-      nights.size(), nights.front().time, nights.back().time, urgent.size(), regressed)};
+  section.paragraphs = {
+      fmt::format("{} nights, {} to {}; {} metrics with an accuracy band, {} of them regressed: worse than the median of the 4, 20 or 100 "
+                  "nights before "
+                  "by more than those nights scatter.",
+                  nights.size(), nights.front().time, nights.back().time, urgent.size(), regressed)};
   const Drawn drawn(nights);
   if (!urgent.empty()) section.figures = {metrics_figure(drawn, urgent), margins_figure(drawn)};
   section.figures.push_back(work_figure(nights, drawn.x, wall));
