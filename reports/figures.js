@@ -258,7 +258,8 @@
           const axis = host.layout[name];
           if (axis.type !== 'log') continue;
           const ticks = logTicks(axis.range);
-          if (ticks.tickmode === axis.tickmode && String(ticks.ticktext) === String(axis.ticktext)) continue;
+          const same = ticks.tickmode === 'auto' || String(ticks.ticktext) === String(axis.ticktext);
+          if (same && ticks.tickmode === axis.tickmode) continue;
           for (const [key, value] of Object.entries(ticks)) change[`${name}.${key}`] = value;
         }
         if (Object.keys(change).length) Plotly.relayout(host, change);

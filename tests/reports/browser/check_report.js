@@ -121,6 +121,26 @@ const checkZoomAndLegend = async (page) => {
   check((await shown()) === 0, 'legend: a second click does not bring it back');
 };
 
+// Labels of logarithmic axes follow the range, and then it is quiet: a change a zoom, and one for the labels.
+const checkLogAxis = async (page) => {
+  const found = await page.evaluate(async () => {
+    const plot = [...document.querySelectorAll('.panel.plot .canvas')].find((c) => c.layout?.yaxis.type === 'log');
+    if (!plot) return null;
+    const before = plot.layout.yaxis.range.slice();
+    let changes = 0;
+    plot.on('plotly_relayout', () => ++changes);
+    const counts = [];
+    for (const range of [[0, 0.3], [-3, 3], before]) {
+      changes = 0;
+      await Plotly.relayout(plot, { 'yaxis.range': range });
+      await new Promise((done) => setTimeout(done, 400));
+      counts.push(changes);
+    }
+    return { counts, labels: plot.querySelectorAll('.ytick text').length };
+  });
+  if (found) check(found.counts.every((n) => n <= 2) && found.labels >= 2, `logarithmic axis: ${JSON.stringify(found)}`);
+};
+
 const checkSlider = async (page) => {
   const film = page.locator('figure:has(input[type=range])').first();
   if ((await film.count()) === 0) return check(false, 'slider: none');
@@ -223,6 +243,7 @@ const withoutScripts = async (browser) => {
     const ids = await drawAll(page, '1200 px');
     await checkWidth(page, '1200 px');
     await checkZoomAndLegend(page);
+    await checkLogAxis(page);
     await checkSlider(page);
     await checkCsv(page, ids);
     await page.evaluate(() => window.scrollTo(0, 0));
