@@ -70,10 +70,7 @@ void write_fields(hid_t parent, const Fields& fields) {
   write_array(group, "quadrilaterals", {fields.mesh.quadrilaterals.size(), 4}, H5T_NATIVE_UINT32,
               fields.mesh.quadrilaterals.data());
   write_dataset(group, "time", {snapshots}, fields.time);
-  write_dataset(group, "displacement_x", {snapshots, points}, fields.displacement_x);
-  write_dataset(group, "displacement_y", {snapshots, points}, fields.displacement_y);
-  write_dataset(group, "velocity_x", {snapshots, points}, fields.velocity_x);
-  write_dataset(group, "velocity_y", {snapshots, points}, fields.velocity_y);
+  for (const NamedField& f : named_fields) write_dataset(group, f.name, {snapshots, points}, fields.*f.values);
   group.close();
 }
 

@@ -2,9 +2,10 @@
 // The signals file: HDF5, one group a case.
 //   time (n), points (n x npoints x 2), sections (n x nsections x 2): doubles, SI units
 //   fields, a group, only of cases with snapshots: x, y (points), quadrilaterals (count x 4, of points, anticlockwise),
-//   time (snapshots), displacement_x, displacement_y, velocity_x, velocity_y (snapshots x points)
-//   attributes of the group: degree, elements (2; of a user's mesh: all, and 1), element_count, dofs, steps: integers; critical_time_step, time_step,
-//   sample_interval, solve_seconds, energy_drift (only if it could be measured): doubles; status: text
+//   time (snapshots), displacement_x, displacement_y, velocity_x, velocity_y, strain_xx, strain_yy, strain_xy, stress_xx, stress_yy,
+//   stress_xy (snapshots x points; xy of strain is the tensor's)
+//   attributes of the group: degree, elements (2; of a user's mesh: all, and 1), element_count, dofs, steps: integers;
+//   critical_time_step, time_step, sample_interval, solve_seconds, energy_drift (only if it could be measured): doubles; status: text
 //   attributes of the file: schema = 1, program: text
 // Text is of variable length, UTF-8. deal.II's own classes for HDF5 check for errors in debug mode only; a
 // full disk must not pass unseen, so this is the C interface.

@@ -6,10 +6,23 @@
   const symbols = { circle: 'circle', square: 'square', triangle: 'triangle-up', diamond: 'diamond' };
   const coarse = window.matchMedia('(pointer: coarse)').matches;
 
+  // Three bytes a number, the first ones of its single precision; what is not finite is null.
+  const unpacked = (text) => {
+    const bytes = atob(text),
+      bits = new DataView(new ArrayBuffer(4));
+    return Array.from({ length: bytes.length / 3 }, (_, i) => {
+      for (let k = 0; k < 3; ++k) bits.setUint8(k, bytes.charCodeAt(3 * i + k));
+      const value = bits.getFloat32(0);
+      return Number.isFinite(value) ? Number(value.toPrecision(6)) : null;
+    });
+  };
+
   const readFigure = (script) => {
     const { figure, arrays } = JSON.parse(script.textContent);
-    const array = (a) => (Array.isArray(a) ? a : Array.from({ length: a.count }, (_, i) => a.from + i * a.step));
+    const array = (a) =>
+      Array.isArray(a) ? a : 'packed' in a ? unpacked(a.packed) : Array.from({ length: a.count }, (_, i) => a.from + i * a.step);
     const values = arrays.map(array);
+    figure.digits = arrays.some((a) => 'packed' in a) ? 'five' : 'six';
     const take = (owner, ...keys) => {
       for (const key of keys) owner[key] = key in owner ? values[owner[key]] : [];
     };
@@ -27,13 +40,31 @@
     const unit = 10 ** -marks.exponent;
     return marks.exponent === 0 ? values : values.map((v) => (v === null ? null : v * unit));
   };
-  // A tick a decade, but within one or two decades those that plotly finds.
-  const decadeTicks = (range) => (Math.abs(range[1] - range[0]) >= 2 ? Math.ceil(Math.abs(range[1] - range[0]) / 7) : null);
-  const decades = (range) => ({ dtick: decadeTicks(range), tickmode: decadeTicks(range) === null ? 'auto' : 'linear' });
+  // A tick a decade; within two decades at 1, 2 and 5; closer those that plotly finds. range: of logarithms.
+  const powerText = (digit, power) =>
+    Math.abs(power) < 4
+      ? String(Number(`${digit}e${power}`))
+      : `${digit === 1 ? '' : `${digit}×`}10${String(power).replace(/./g, (c) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] ?? '⁻')}`;
+  const logTicks = (range) => {
+    const [lower, upper] = [Math.min(...range), Math.max(...range)],
+      decades = upper - lower;
+    if (decades < 0.6) return { tickmode: 'auto' };
+    const digits = decades < 2 ? [1, 2, 5] : [1],
+      stride = Math.ceil(decades / 7);
+    const ticks = [];
+    for (let power = Math.floor(lower / stride) * stride; power <= upper; power += stride)
+      ticks.push(...digits.map((digit) => ({ digit, power })).filter((t) => Math.log10(t.digit) + t.power >= lower - 1e-9));
+    const shown = ticks.filter((t) => Math.log10(t.digit) + t.power <= upper + 1e-9);
+    return {
+      tickmode: 'array',
+      tickvals: shown.map((t) => Number(`${t.digit}e${t.power}`)),
+      ticktext: shown.map((t) => powerText(t.digit, t.power)),
+    };
+  };
   const plotAxis = (marks) => {
     const ends = scaled([marks.lower, marks.upper], marks);
     return {
-      ...(marks.log ? decades(ends.map(Math.log10)) : {}),
+      ...(marks.log ? logTicks(ends.map(Math.log10)) : {}),
       type: marks.log ? 'log' : 'linear',
       range: marks.log ? ends.map(Math.log10) : ends,
       exponentformat: 'power',
@@ -42,7 +73,7 @@
       zeroline: false,
       linecolor: '#7a828c',
       ticks: '',
-      nticks: marks.log ? 5 : 7,
+      nticks: 7,
       automargin: true,
       tickfont: { color: '#444' },
       hoverformat: '.5~g',
@@ -224,12 +255,12 @@
       host.on('plotly_relayout', () => {
         const change = {};
         for (const name of ['xaxis', 'yaxis']) {
-          const axis = host.layout[name],
-            ticks = axis.type === 'log' ? decades(axis.range) : axis;
-          if (ticks.tickmode !== axis.tickmode || (ticks.tickmode === 'linear' && ticks.dtick !== axis.dtick)) {
-            change[`${name}.dtick`] = ticks.dtick;
-            change[`${name}.tickmode`] = ticks.tickmode;
-          }
+          const axis = host.layout[name];
+          if (axis.type !== 'log') continue;
+          const ticks = logTicks(axis.range);
+          const same = ticks.tickmode === 'auto' || String(ticks.ticktext) === String(axis.ticktext);
+          if (same && ticks.tickmode === axis.tickmode) continue;
+          for (const [key, value] of Object.entries(ticks)) change[`${name}.${key}`] = value;
         }
         if (Object.keys(change).length) Plotly.relayout(host, change);
       });
@@ -314,12 +345,9 @@
       href: URL.createObjectURL(new Blob([csvOf(figure)], { type: 'text/csv' })),
     });
     link.append(make('span', { className: 'hidden', textContent: ` of ${figure.title}` }));
-    host
-      .querySelector('.csv')
-      ?.replaceChildren(
-        link,
-        figure.thinned ? ' (SI units, six digits; long series are thinned, their extremes kept)' : ' (SI units, six digits, all points)',
-      );
+    const points = figure.thinned ? 'long series are thinned, their extremes kept' : 'all points';
+    const note = ` (SI units, ${figure.digits} digits, ${points}; figures/${figure.id}.csv beside this page has every digit)`;
+    host.querySelector('.csv')?.replaceChildren(link, note);
   };
 
   const draw = (host) => {

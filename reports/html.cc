@@ -113,7 +113,7 @@ std::string render_html(const Report& report, const HtmlOptions& options) {
   constexpr Detail still[] = {{.csv_rows = 4000, .table_rows = 60, .narrow_drawings = true},
                               {.csv_rows = 800, .table_rows = 20, .narrow_drawings = true},
                               {.csv_rows = 200, .table_rows = 10, .narrow_drawings = false}};
-  constexpr Detail live[] = {{.table_rows = 60, .narrow_drawings = false, .live_points = 2000},
+  constexpr Detail live[] = {{.table_rows = 40, .narrow_drawings = false, .live_points = 2000},
                              {.table_rows = 30, .narrow_drawings = false, .live_points = 1000},
                              {.table_rows = 20, .narrow_drawings = false, .live_points = 500},
                              {.table_rows = 10, .narrow_drawings = false, .live_points = 150}};

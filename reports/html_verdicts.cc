@@ -16,16 +16,9 @@ std::string_view css_class(State state) {
   return state == State::error ? "error" : "fail";
 }
 
-std::string_view symbol(State state) {
-  if (is_pass(state)) return "✓";
-  return state == State::skipped || state == State::no_baseline ? "–" : "✗";
-}
-
+// Hundreds of them: the tick or cross before the word is the style sheet's.
 void append_badge(Markup& out, State state) {
-  out.open("span", {{"class", fmt::format("badge {}", css_class(state))}});
-  out.element("span", {{"aria-hidden", "true"}}, fmt::format("{} ", symbol(state)))
-      .text(to_string(state))
-      .close();
+  out.element("span", {{"class", fmt::format("badge {}", css_class(state))}}, to_string(state));
 }
 
 // Where the actual value is between its bounds, at a glance. The numbers are beside it.
@@ -37,7 +30,7 @@ void append_gauge(Markup& out, const Criterion& c) {
     return band_left + band * std::clamp((v - c.lower) / span, -0.42, 1.42);
   };
   // Hundreds of them: what they share stands once in the page.
-  out.open("svg", {{"class", "gauge"}, {"aria-hidden", "true"}}).empty("use", {{"href", "#gauge"}});
+  out.open("svg", {{"aria-hidden", "true"}}).empty("use", {{"href", "#gauge"}});
   if (std::isfinite(c.target)) out.empty("path", {{"d", "M" + coordinate(pixel(c.target)) + " 2v12"}});
   if (std::isfinite(c.actual)) {
     out.empty("circle", {{"class", is_failure(c.state) ? "out" : "in"}, {"cx", pixel(c.actual)}, {"cy", 8.0}, {"r", 3.6}});
@@ -51,13 +44,11 @@ void append_gauge_scale(Markup& out) {
   out.close().close().newline();
 }
 
+// Thousands of cells: how one looks follows from its column (report.css).
 void append_criteria(Markup& out, const Verdict& verdict) {
   open_scroll_box(out, "Criteria of " + verdict.case_id);
   out.open("table").open("thead").open("tr");
-  for (const std::string_view heading : {"Metric", "State"}) out.element("th", {{"scope", "col"}}, heading);
-  for (const std::string_view heading : {"Actual", "Target"})
-    out.element("th", {{"scope", "col"}, {"class", "n"}}, heading);
-  for (const std::string_view heading : {"Accepted", "Derivation"})
+  for (const std::string_view heading : {"Metric", "State", "Actual", "Target", "Accepted", "Derivation"})
     out.element("th", {{"scope", "col"}}, heading);
   out.close().close().newline().open("tbody");
   for (const Criterion& c : verdict.criteria) {
@@ -68,12 +59,12 @@ void append_criteria(Markup& out, const Verdict& verdict) {
     out.open("td");
     append_badge(out, c.state);
     out.close();
-    out.element("td", {{"class", "n"}}, std::isfinite(c.actual) ? with_unit(c.actual) : "not measured");
-    out.element("td", {{"class", "n"}}, with_unit(c.target));
-    out.open("td", {{"class", "accepted"}});
+    out.element("td", {}, std::isfinite(c.actual) ? with_unit(c.actual) : "not measured");
+    out.element("td", {}, with_unit(c.target));
+    out.open("td");
     append_gauge(out, c);
     out.text(accepted_text(c)).close();
-    out.element("td", {{"class", "derivation"}}, c.derivation).close().newline();
+    out.element("td", {}, c.derivation).close().newline();
   }
   out.close().close().close().newline();
 }

@@ -13,6 +13,7 @@
 #include "reports/decimate.h"
 #include "reports/heat_map.h"
 #include "reports/legend.h"
+#include "reports/packed.h"
 #include "reports/plot_limits.h"
 #include "reports/report_json.h"
 #include "reports/strip.h"
@@ -41,7 +42,9 @@ Json short_number(double v) {
   return std::isfinite(v) ? Json(std::strtod(fmt::format("{:.6g}", v).c_str(), nullptr)) : Json(nullptr);
 }
 
-/// Times of samples take a few bytes instead of thousands.
+constexpr std::size_t kFewNumbers = 48;  // of which each has its digits
+
+/// Times of samples take a few bytes instead of thousands, and many numbers a third of their digits.
 Json array_json(const std::vector<double>& values) {
   if (values.size() > 4) {
     const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
@@ -49,6 +52,9 @@ Json array_json(const std::vector<double>& values) {
     for (std::size_t i = 0; even && i < values.size(); ++i)
       even = std::abs(values[i] - (values.front() + static_cast<double>(i) * step)) <= 1e-9 * std::abs(step);
     if (even) return {{"from", values.front()}, {"step", step}, {"count", values.size()}};
+  }
+  if (values.size() > kFewNumbers) {
+    if (const auto packed = packed_numbers(values)) return {{"packed", *packed}};
   }
   Json array = Json::array();
   for (const double v : values) array.push_back(short_number(v));
@@ -106,18 +112,6 @@ void add_looks(Json& panel, const Plot& plot, const StyleBook& styles) {
   panel["map"]["ticks"] = Json::array();
   for (const ColorTick& t : color_ticks(*plot.map, kTypicalHeight))
     panel["map"]["ticks"].push_back({{"at", t.fraction}, {"label", t.label}});
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? digits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
 }
 
 constexpr std::uint8_t kNoValue = 255, kTop = 254;

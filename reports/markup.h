@@ -26,9 +26,9 @@ class Markup {
   Markup& open(std::string_view tag, Attributes attributes = {});
   Markup& open(std::string_view tag, std::span<const Attribute> attributes);
   Markup& close();
-  /// <tag .../>: void elements of HTML, and childless ones of SVG.
+  /// `<tag .../>`: void elements of HTML, and childless ones of SVG.
   Markup& empty(std::string_view tag, Attributes attributes = {});
-  /// <tag ...>text</tag>
+  /// `<tag ...>text</tag>`
   Markup& element(std::string_view tag, Attributes attributes, std::string_view text);
   Markup& text(std::string_view content);
   /// Trusted, well-formed markup of ours; not escaped.

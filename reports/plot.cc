@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "reports/axis.h"
 #include "reports/color.h"
@@ -27,6 +29,11 @@ double top_margin(const Plot& plot) {
 
 double bottom_margin() {
   return kTickRow + kAxisTitleRow;
+}
+
+std::vector<std::string> lines_of_title(const Plot& plot, double width) {
+  constexpr double bold = 1.12;  // is wider
+  return wrap_text(clean_utf8(plot.title), width, bold * (kTickFont + 1));
 }
 
 int vertical_tick_count(double height) {
@@ -343,20 +350,22 @@ double left_margin(const Plot& plot, double height) {
   return axis_marks(plot.y, y_limits(plot), vertical_tick_count(area_height)).label_width + 12.0;
 }
 
-void draw_plot(Markup& out, const Plot& plot, const StyleBook& styles, const Rect& frame, double margin) {
-  const double top = top_margin(plot);
+std::size_t title_lines(const Plot& plot, double width) {
+  return lines_of_title(plot, width).size();
+}
+
+void draw_plot(Markup& out, const Plot& plot, const StyleBook& styles, const Rect& frame, double margin, std::size_t lines) {
+  const double top = top_margin(plot) + kTitleLine * static_cast<double>(std::max<std::size_t>(lines, 1) - 1);
   const double right = plot.map ? kColorBarRoom : kRight;
   const Rect area = snapped({frame.left + margin, frame.top + top, frame.width - margin - right,
                              frame.height - top - bottom_margin()});
   out.open("g", {{"class", "plot"}}).newline();
-  if (!plot.title.empty())
+  double y = frame.top + 13;
+  for (const std::string& line : lines_of_title(plot, frame.width - margin)) {
     out.element("text",
-                {{"class", "ptitle"},
-                 {"x", frame.left + margin},
-                 {"y", frame.top + 13},
-                 {"font-weight", "600"},
-                 {"font-size", kTickFont + 1}},
-                plot.title);
+                {{"class", "ptitle"}, {"x", frame.left + margin}, {"y", y}, {"font-weight", "600"}, {"font-size", kTickFont + 1}}, line);
+    y += kTitleLine;
+  }
   PlotPainter(out, plot, styles, area).draw();
   if (plot.map) draw_color_bar(out, *plot.map, area);
   out.close().newline();

@@ -47,17 +47,21 @@ double draw_panels(Markup& out, const Figure& figure, const StyleBook& styles, P
     if (const Plot* plot = std::get_if<Plot>(&p))
       margin = std::max(margin, left_margin(*plot, grid.plot_height()));
   margin = std::min(margin, 0.4 * grid.cell_width());
+  std::size_t lines = 1;  // of titles: as many for all, so that axes are level
+  for (const Panel& p : figure.panels)
+    if (const Plot* plot = std::get_if<Plot>(&p)) lines = std::max(lines, title_lines(*plot, grid.cell_width() - margin));
+  const double plot_height = grid.plot_height() + kTitleLine * static_cast<double>(lines - 1);
 
   double y = corner.y;
   std::size_t column = 0;
   const auto end_row = [&] {
-    if (column != 0) y += grid.plot_height() + kGap;
+    if (column != 0) y += plot_height + kGap;
     column = 0;
   };
   for (const Panel& p : figure.panels) {
     if (const Plot* plot = std::get_if<Plot>(&p)) {
       const double x = corner.x + static_cast<double>(column) * (grid.cell_width() + kGap);
-      draw_plot(out, *plot, styles, {x, y, grid.cell_width(), grid.plot_height()}, margin);
+      draw_plot(out, *plot, styles, {x, y, grid.cell_width(), plot_height}, margin, lines);
       if (++column == grid.columns) end_row();
     } else {
       end_row();

@@ -17,7 +17,7 @@ struct EmbeddedSvg {
   std::string id_prefix = {};  ///< unique within the document
 };
 
-/// The <svg> element for use inside HTML, where heading and caption are the page's.
+/// The `<svg>` element for use inside HTML, where heading and caption are the page's.
 std::string render_embedded_svg(const Figure& figure, const EmbeddedSvg& options);
 
 }  // namespace ddem::reports

@@ -14,13 +14,21 @@ function(ddem_npm_package name version sha512 folder)
     message(STATUS "no npm, hence no ${name}")
     return()
   endif()
+  # Who cannot reach the registry waits once.
+  get_property(failed GLOBAL PROPERTY DDEM_NPM_FAILED)
+  if(failed)
+    message(STATUS "npm failed before, hence no ${name}")
+    return()
+  endif()
   file(MAKE_DIRECTORY ${home})
   execute_process(
-    COMMAND ${DDEM_NPM} pack ${name}@${version} --silent --fetch-retries=1 --fetch-timeout=30000 --pack-destination ${home}
-    WORKING_DIRECTORY ${home} TIMEOUT 90 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
+    COMMAND ${DDEM_NPM} pack ${name}@${version} --loglevel=error --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-timeout=15000
+      --pack-destination ${home}
+    WORKING_DIRECTORY ${home} TIMEOUT 60 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
   file(GLOB archives ${home}/*.tgz)
   if(NOT result EQUAL 0 OR NOT archives)
-    message(STATUS "npm could not fetch ${name} ${version}: ${result} ${error}")
+    set_property(GLOBAL PROPERTY DDEM_NPM_FAILED TRUE)
+    message(STATUS "npm could not fetch ${name} ${version}: ${result}\n${error}")
     return()
   endif()
   list(GET archives 0 archive)

@@ -94,7 +94,7 @@ reports::Figure precision_figure(const std::vector<PrecisionPoint>& points) {
   reports::Figure figure{.id = "work-precision",
                          .title = "Run time against error",
                          .caption = "Finite elements: a Gaussian pulse against d'Alembert's solution, a line for each degree and wave (dashed: the bar with "
-                                    "nu = 0), a mark for each mesh. Discs: a Gaussian shear pulse in the hexagonal lattice; first against the exact motion "
+                                    "ν = 0), a mark for each mesh. Discs: a Gaussian shear pulse in the hexagonal lattice; first against the exact motion "
                                     "of the same lattice, which leaves the error of the time step and of lagging (a mark for each step, and one exact in time), then against "
                                     "the continuum, which adds that of the discs' size. Times depend on the machine and on what else it does."};
   reports::Plot fem = panel("finite elements, against d'Alembert");

@@ -8,6 +8,8 @@
 
 namespace ddem::harness {
 
-reports::Report report_of(const CampaignResults& results, const std::vector<reports::Verdict>& verdicts);
+/// `more`: sections by others, after those of the results.
+reports::Report report_of(const CampaignResults& results, const std::vector<reports::Verdict>& verdicts,
+                          const std::vector<reports::Section>& more = {});
 
 }  // namespace ddem::harness

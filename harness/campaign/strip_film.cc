@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "harness/run/dem_run.h"
 
@@ -68,7 +69,10 @@ StripFilm film_strip(const StripCampaign& s) {
   film.stiffness_ratio =
       *std::min_element(s.stiffness_ratios.begin(), s.stiffness_ratios.end(),
                         [](double a, double b) { return std::abs(a - 0.3) < std::abs(b - 0.3); });
-  for (const Model model : s.models) {
+  // All models over the same time, frame by frame: as long as the last one, of the softest discs, takes to pass the last probe.
+  std::optional<double> end;
+  for (auto m = s.models.rbegin(); m != s.models.rend(); ++m) {
+    const Model model = *m;
     const StripCase c{StripPacking::random, s.seeds.front(), model,
                       film.stiffness_ratio, Protocol::paper, StripWave::bar};
     RunOptions options;
@@ -78,11 +82,13 @@ StripFilm film_strip(const StripCampaign& s) {
     try {
       Scene scene = scene_of(scene_text(s, c, 1.0), "film");
       scene.time.integrator = Integrator::verlet;  // every disc is seen
+      if (end) scene.time.end = EndTime{*end};
       const DemRun run = run_scene(scene, options);
       if (run.result.breakdown) {
         film.failure = fmt::format("{} diverged at step {}", name(model), run.result.breakdown->step);
         continue;
       }
+      if (!end && !run.result.energy.empty()) end = run.result.energy.back().time;
       film.runs.push_back({model, run.assembly.packing, run.result.snapshots, run.result.energy});
       if (!film.probes.empty()) continue;
       for (std::size_t p = 0; p < run.layout.probes.size(); ++p) {
@@ -95,6 +101,7 @@ StripFilm film_strip(const StripCampaign& s) {
       film.failure = e.what();
     }
   }
+  std::reverse(film.runs.begin(), film.runs.end());
   return film;
 }
 

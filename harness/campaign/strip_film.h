@@ -25,7 +25,7 @@ struct StripFilm {
   std::vector<reports::Probe> probes;
 };
 
-/// A run of a model that diverges is left out, and `failure` says so.
+/// All runs last as long as that of the last model. A run of a model that diverges is left out, and `failure` says so.
 StripFilm film_strip(const StripCampaign& campaign);
 
 /// Displacement, stress and strain of the discs over time; the picture on paper is the frame half-way.

@@ -267,8 +267,9 @@ void prepare_folder(const std::filesystem::path& folder) {
   if (error) throw MachineError(folder.string() + ": cannot create the folder: " + error.message());
 }
 
-void write_results(const std::filesystem::path& folder, const CampaignResults& r, const std::vector<reports::Verdict>& verdicts) {
-  const reports::Report report = report_of(r, verdicts);
+void write_results(const std::filesystem::path& folder, const CampaignResults& r, const std::vector<reports::Verdict>& verdicts,
+                   const std::vector<reports::Section>& more) {
+  const reports::Report report = report_of(r, verdicts, more);
   write_hdf5(folder / "results.h5", r, report);
   write_json(folder / "summary.json", nightly::summary_json({r.campaign.title, r.wall_seconds, provenance(), verdicts}));
   write_file(folder / "junit.xml", reports::render_junit("ddem validate", verdicts));

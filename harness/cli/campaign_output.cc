@@ -6,7 +6,8 @@
 
 #include "harness/campaign/write_results.h"
 #include "harness/io/errors.h"
-#include "harness/nightly/history.h"
+#include "harness/nightly/history_figures.h"
+#include "harness/provenance/provenance.h"
 
 namespace ddem::harness {
 namespace {
@@ -38,18 +39,35 @@ nightly::WorkCounts work_of(const PlannedCampaign& campaign, const CampaignResul
   return work;
 }
 
+nightly::Night night_of(const PlannedCampaign& campaign, const CampaignResults& results, const std::vector<reports::Verdict>& verdicts) {
+  const nightly::Summary summary{results.campaign.title, results.wall_seconds, provenance(), verdicts};
+  return {time_of(summary), summary, work_of(campaign, results)};
+}
+
+/// A history that cannot be read must not cost the results: the report says what is wrong with it.
+reports::Section trends_until(const nightly::Night& night, const std::filesystem::path& folder) {
+  try {
+    std::vector<nightly::Night> nights = nightly::nights_so_far(folder);
+    nights.push_back(night);
+    return nightly::history_section(nights);
+  } catch (const InputError& e) {
+    fmt::print(stderr, "no trends in the report: {}\n", e.what());
+    return {.heading = "History", .paragraphs = {fmt::format("Not drawn: {}", e.what())}};
+  }
+}
+
 }  // namespace
 
 int conclude_campaign(const PlannedCampaign& campaign, const CampaignResults& results,
                       const Conclusion& conclusion) {
   std::vector<reports::Verdict> verdicts = campaign.verdicts(results);
   if (conclusion.baseline) nightly::compare(verdicts, *conclusion.baseline);
-  write_results(conclusion.folder, results, verdicts);
-  if (!conclusion.history.empty()) {
-    const nightly::Summary summary = nightly::read_summary(conclusion.folder);
-    fmt::print("history: {}\n", nightly::append_night(conclusion.history,
-                                                      {time_of(summary), summary, work_of(campaign, results)})
-                                    .string());
+  if (conclusion.history.empty()) {
+    write_results(conclusion.folder, results, verdicts);
+  } else {
+    const nightly::Night night = night_of(campaign, results, verdicts);
+    write_results(conclusion.folder, results, verdicts, {trends_until(night, conclusion.history)});
+    fmt::print("history: {}\n", nightly::append_night(conclusion.history, night).string());
   }
   print_verdicts(verdicts);
   fmt::print("report: {}/report.html ({:.1f} s)\n", conclusion.folder.string(), results.wall_seconds);

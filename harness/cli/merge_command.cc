@@ -47,7 +47,7 @@ void add_merge_command(CLI::App& app, Action& action) {
   command->add_option("-o,--output", o->target, "folder for what they make together")->required();
   command->add_option("--baseline", o->baseline,
                      "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
-  command->add_option("--history", o->history, "folder that gets one file of this run; see ddem history");
+  command->add_option("--history", o->history, "folder that gets one file of this run, and whose trends the report draws; see ddem history");
   command->callback([o, &action] { action = [o] { return merge(*o); }; });
 }
 

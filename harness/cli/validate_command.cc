@@ -152,7 +152,7 @@ void add_validate_command(CLI::App& app, Action& action) {
   command->add_option("-j,--jobs", o->jobs, "simulations at a time (default: the machine's cores)")->check(CLI::Range(1, 1024));
   command->add_option("--only", o->only, "one case of the report by its name, with all that it needs");
   command->add_option("--baseline", o->baseline, "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
-  command->add_option("--history", o->history, "folder that gets one file of this run; see ddem history");
+  command->add_option("--history", o->history, "folder that gets one file of this run, and whose trends the report draws; see ddem history");
   command->add_option("--shard", o->shard,
                       "i/n: the units k of the campaign with k mod n = i - 1, into a folder of their own; then: ddem merge");
   command->add_flag("--plan", o->plan, "write DIR/plan.json, the list of all units with their identities, and run nothing");

@@ -28,16 +28,6 @@ double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-/// Half the accuracy band; a one-sided band reaches from the target, or 0, to its bound.
-double half_width(const Criterion& c) {
-  const bool lower = std::isfinite(c.lower), upper = std::isfinite(c.upper);
-  const double middle = std::isfinite(c.target) ? c.target : 0.0;
-  if (lower && upper) return 0.5 * (c.upper - c.lower);
-  if (lower) return std::abs(middle - c.lower);
-  if (upper) return std::abs(c.upper - middle);
-  return 0.0;
-}
-
 /// What the nights have of one metric.
 struct Samples {
   std::vector<double> values;
@@ -78,6 +68,15 @@ double badness(const Criterion& c, double value, double usual) {
   if (upper) return value;
   if (lower) return -value;
   return std::abs(value - usual);
+}
+
+double half_width(const Criterion& c) {
+  const bool lower = std::isfinite(c.lower), upper = std::isfinite(c.upper);
+  const double middle = std::isfinite(c.target) ? c.target : 0.0;
+  if (lower && upper) return 0.5 * (c.upper - c.lower);
+  if (lower) return std::abs(middle - c.lower);
+  if (upper) return std::abs(c.upper - middle);
+  return 0.0;
 }
 
 double least_noise(const Criterion& c) {

@@ -62,6 +62,36 @@ Night parse_night(const fs::path& path) {
   return n;
 }
 
+/// Sorted by name.
+std::vector<fs::path> night_files(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".json" && !name.starts_with('.')) files.push_back(entry.path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot read the folder: " + error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The earliest first. InputError naming every file that is no night.
+std::vector<Night> nights_of(const std::vector<fs::path>& files) {
+  std::vector<Night> nights;
+  std::vector<std::string> problems;
+  for (const fs::path& file : files) {
+    try {
+      nights.push_back(parse_night(file));
+    } catch (const InputError& e) {
+      problems.push_back(e.what());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  // Of one second those that were written later, whose names sort later, come later.
+  std::stable_sort(nights.begin(), nights.end(), [](const Night& a, const Night& b) { return a.time < b.time; });
+  return nights;
+}
+
 /// The finite values of each metric, night by night.
 using Series = std::map<std::string, std::vector<double>>;
 
@@ -120,30 +150,19 @@ fs::path append_night(const fs::path& folder, const Night& night) {
 }
 
 std::vector<Night> read_history(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (entry.path().extension() == ".json" && !name.starts_with('.')) files.push_back(entry.path());
-  }
-  if (error) throw InputError(folder.string() + ": cannot read the folder: " + error.message());
-  if (files.empty())
-    throw InputError(folder.string() + ": no nights; ddem validate --history adds one a run");
-  std::sort(files.begin(), files.end());
-  std::vector<Night> nights;
-  std::vector<std::string> problems;
-  for (const fs::path& file : files) {
-    try {
-      nights.push_back(parse_night(file));
-    } catch (const InputError& e) {
-      problems.push_back(e.what());
-    }
-  }
-  if (!problems.empty()) throw InputError(problems);
-  // Of one second those that were written later, whose names sort later, come later.
-  std::stable_sort(nights.begin(), nights.end(),
-                   [](const Night& a, const Night& b) { return a.time < b.time; });
+  std::vector<Night> nights = nights_of(night_files(folder));
+  if (nights.empty()) throw InputError(folder.string() + ": no nights; ddem validate --history adds one a run");
   return nights;
+}
+
+std::vector<Night> nights_so_far(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {};
+  return nights_of(night_files(folder));
+}
+
+bool is_as_much_work(const WorkCounts& a, const WorkCounts& b) {
+  return a.steps == b.steps && a.units == b.units;
 }
 
 std::vector<Trend> trends_of(const std::vector<Night>& nights) {
@@ -165,7 +184,7 @@ std::vector<Trend> trends_of(const std::vector<Night>& nights) {
                        .state = reports::State::pass};
   std::vector<double> earlier;  // of nights with as much work
   for (auto n = nights.begin(); n + 1 != nights.end(); ++n) {
-    if (n->work.steps == nights.back().work.steps && n->work.units == nights.back().work.units)
+    if (is_as_much_work(n->work, nights.back().work))
       earlier.push_back(n->summary.wall_seconds);
   }
   trends.push_back(trend_of(wall, "", earlier, kSlower));

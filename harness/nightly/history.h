@@ -17,6 +17,9 @@ struct WorkCounts {
   std::vector<std::int64_t> seeds;
 };
 
+/// Whether wall times of both can be compared.
+bool is_as_much_work(const WorkCounts& a, const WorkCounts& b);
+
 struct Night {
   std::string time;  ///< UTC, "2026-11-22T02:00:00Z"
   Summary summary;
@@ -30,6 +33,9 @@ std::filesystem::path append_night(const std::filesystem::path& folder, const Ni
 /// All nights, the earliest first; other files are left alone. InputError naming every file that is no night,
 /// and where there is none at all.
 std::vector<Night> read_history(const std::filesystem::path& folder);
+
+/// The nights of a folder that may not be there yet, or hold none. Throws as read_history().
+std::vector<Night> nights_so_far(const std::filesystem::path& folder);
 
 inline constexpr int kWindows[] = {4, 20, 100};
 

@@ -105,10 +105,7 @@ FemFields read_fields(const Hdf5Group& g) {
   f.y = g.read_doubles("y").values;
   f.quadrilaterals = g.read_ints("quadrilaterals").values;
   f.time = g.read_doubles("time").values;
-  f.displacement_x = g.read_doubles("displacement_x").values;
-  f.displacement_y = g.read_doubles("displacement_y").values;
-  f.velocity_x = g.read_doubles("velocity_x").values;
-  f.velocity_y = g.read_doubles("velocity_y").values;
+  for (const NamedFemField& field : named_fem_fields) f.*field.values = g.read_doubles(field.name).values;
   return f;
 }
 

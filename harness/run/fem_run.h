@@ -49,8 +49,22 @@ struct FemFields {
   std::vector<double> x, y;         ///< of each point, m, from the lower left corner; nodes of periodic edges are two points
   std::vector<int> quadrilaterals;  ///< count x 4: points, anticlockwise
   std::vector<double> time;         ///< of the snapshots, s
-  std::vector<double> displacement_x, displacement_y, velocity_x, velocity_y;  ///< snapshots x points, m and m/s
+  /// Snapshots x points: m, m/s, of strain the components of the tensor, Pa.
+  std::vector<double> displacement_x, displacement_y, velocity_x, velocity_y;
+  std::vector<double> strain_xx, strain_yy, strain_xy, stress_xx, stress_yy, stress_xy;
 };
+
+/// Each of these as files name it.
+struct NamedFemField {
+  const char *name, *unit;
+  std::vector<double> FemFields::*values;
+};
+inline constexpr NamedFemField named_fem_fields[] = {
+    {"displacement_x", "m", &FemFields::displacement_x}, {"displacement_y", "m", &FemFields::displacement_y},
+    {"velocity_x", "m/s", &FemFields::velocity_x},       {"velocity_y", "m/s", &FemFields::velocity_y},
+    {"strain_xx", "1", &FemFields::strain_xx},           {"strain_yy", "1", &FemFields::strain_yy},
+    {"strain_xy", "1", &FemFields::strain_xy},           {"stress_xx", "Pa", &FemFields::stress_xx},
+    {"stress_yy", "Pa", &FemFields::stress_yy},          {"stress_xy", "Pa", &FemFields::stress_xy}};
 
 struct FemResult {
   std::string id;

@@ -28,7 +28,7 @@ std::string to_string(const Violation& violation);
 /// One line per violation, each ended by a newline.
 std::string to_string(std::span<const Violation> violations);
 
-/// `text` as one line of valid UTF-8: control characters and broken sequences become \xNN, and what exceeds
+/// `text` as one line of valid UTF-8: control characters and broken sequences become `\xNN`, and what exceeds
 /// `max_bytes` becomes "...".
 std::string printable(std::string_view text, std::size_t max_bytes);
 

@@ -1,4 +1,4 @@
-// Snapshots of ddem-fem: displacement and velocity of all nodes against closed forms, and the mesh that shows them.
+// Snapshots of ddem-fem: displacement, velocity, strain and stress of all nodes against closed forms, and the mesh that shows them.
 
 #include <gtest/gtest.h>
 
@@ -34,6 +34,7 @@ double gaussian(double x) {
 
 struct Fields {
   std::vector<double> x, y, quadrilaterals, time, ux, uy, vx, vy;
+  std::map<std::string, std::vector<double>> tensor;  ///< "strain_xx" and so on
 };
 
 Json sized(const char* id, int ny, int degree, double step_fraction) {
@@ -72,8 +73,10 @@ class ProgramFields : public testing::Test {
   static const SignalsReader& reader() { return *reader_; }
   static Fields fields(const std::string& id) {
     const auto read = [&](const char* name) { return reader_->values(id + "/fields/" + name); };
-    return {read("x"), read("y"), read("quadrilaterals"), read("time"), read("displacement_x"), read("displacement_y"), read("velocity_x"),
-            read("velocity_y")};
+    Fields f{read("x"), read("y"), read("quadrilaterals"), read("time"), read("displacement_x"), read("displacement_y"), read("velocity_x"),
+             read("velocity_y"), {}};
+    for (const char* name : {"strain_xx", "strain_yy", "strain_xy", "stress_xx", "stress_yy", "stress_xy"}) f.tensor[name] = read(name);
+    return f;
   }
 
  private:
@@ -83,13 +86,13 @@ class ProgramFields : public testing::Test {
 
 // Relative L2 errors over all points of the last snapshot.
 struct Errors {
-  double displacement = 0.0, velocity = 0.0;
+  double displacement = 0.0, velocity = 0.0, strain = 0.0;
 };
 
 Errors errors_of(const Fields& f) {
   const ReleasedPulse exact{gaussian, strip_length, 1};
   const double t = f.time.back(), h = 1e-11;  // of the central difference: (c h/width)^2 = 3e-9
-  double u2 = 0.0, du2 = 0.0, v2 = 0.0, dv2 = 0.0;
+  double u2 = 0.0, du2 = 0.0, v2 = 0.0, dv2 = 0.0, s2 = 0.0, ds2 = 0.0;
   const std::size_t last = f.uy.size() - f.x.size();
   for (std::size_t k = 0; k < f.x.size(); ++k) {
     const double u = exact(f.x[k], t, shear_speed);
@@ -98,8 +101,12 @@ Errors errors_of(const Fields& f) {
     v2 += v * v;
     du2 += std::pow(f.uy[last + k] - u, 2);
     dv2 += std::pow(f.vy[last + k] - v, 2);
+    const double d = 1e-8;  // of the central difference: (d/width)^2/6 = 2e-10
+    const double slope = (exact(f.x[k] + d, t, shear_speed) - exact(f.x[k] - d, t, shear_speed)) / (2.0 * d);
+    s2 += slope * slope;
+    ds2 += std::pow(2.0 * f.tensor.at("strain_xy")[last + k] - slope, 2);
   }
-  return {std::sqrt(du2 / u2), std::sqrt(dv2 / v2)};
+  return {std::sqrt(du2 / u2), std::sqrt(dv2 / v2), std::sqrt(ds2 / s2)};
 }
 
 TEST_F(ProgramFields, ArePulsesOfDAlembertUpToTheErrorOfTheStep) {
@@ -113,11 +120,24 @@ TEST_F(ProgramFields, ArePulsesOfDAlembertUpToTheErrorOfTheStep) {
     const Errors e = errors_of(f);
     EXPECT_NEAR(e.displacement, std::sqrt(15.0 / 8.0) * phase, 0.05 * std::sqrt(15.0 / 8.0) * phase) << id;
     EXPECT_NEAR(e.velocity, std::sqrt(105.0 / 8.0) * phase, 0.05 * std::sqrt(105.0 / 8.0) * phase) << id;
+    EXPECT_NEAR(e.strain, std::sqrt(105.0 / 8.0) * phase, 0.05 * std::sqrt(105.0 / 8.0) * phase) << id;
     for (std::size_t k = 0; k < f.ux.size(); ++k) {
       // A shear wave has no ux: round-off of a few thousand steps, 1e-12 of the amplitude and of c times the slope.
       ASSERT_LT(std::abs(f.ux[k]), 1e-12 * 1e-6);
       ASSERT_LT(std::abs(f.vx[k]), 1e-12 * 1e-6 * c / pulse_width);
     }
+  }
+}
+
+// Hooke's law with G = E/2.6: sigma_xy = 2 G eps_xy, and nothing else in a shear wave but round-off, 1e-11 of it.
+TEST_F(ProgramFields, HaveTheStressOfAShearWave) {
+  const Fields f = fields("0.8");
+  const double largest = 1e-6 / pulse_width * 1e10 / 2.6;
+  ASSERT_EQ(f.tensor.at("stress_xy").size(), f.uy.size());
+  for (std::size_t k = 0; k < f.uy.size(); ++k) {
+    const double shear = 1e10 / 1.3 * f.tensor.at("strain_xy")[k];
+    ASSERT_NEAR(f.tensor.at("stress_xy")[k], shear, 1e-12 * largest);
+    ASSERT_LT(std::abs(f.tensor.at("stress_xx")[k]) + std::abs(f.tensor.at("stress_yy")[k]), 1e-11 * largest);
   }
 }
 
@@ -202,7 +222,7 @@ TEST_F(ProgramFields, AreRefusedWhereTheyAreTooMany) {
   place.write("cases.json", case_file({many}));
   const auto outcome = place.run("cases.json -o signals.h5");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("case \"many\", snapshots: 10000 of 8480 nodes make 2.71e+09 bytes"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("case \"many\", snapshots: 10000 of 8480 nodes make 6.78e+09 bytes"), std::string::npos) << outcome.errors;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "fem_reference/kernel/elastic_operator.h"
 #include "fem_reference/kernel/gauss_lobatto.h"
+#include "fem_reference/kernel/node_strains.h"
 #include "tests/fem_reference/rectangle_mesh.h"
 
 namespace ddem::fem {
@@ -117,6 +118,55 @@ TEST_P(Kernel, GeneralQuadrilateralsPassThePatchTest) {
     if (!is_available(set)) continue;
     EXPECT_EQ(times(ElasticOperator(mesh.mesh, material, set), u), force);
   }
+}
+
+TEST_P(Kernel, NodesHaveTheStrainOfAUniformField) {
+  Rectangle distorted = rectangle;
+  distorted.slant = 0.0;
+  distorted.distortion = 0.4;
+  const double exx = 1e-3, eyy = -4e-4, exy = 7e-4;
+  for (const auto& mesh : {make_rectangle(rectangle), make_rectangle(distorted)}) {
+    const auto u = interpolate(
+        mesh, [&](double x, double y) { return exx * x + (exy - 0.3) * y; },
+        [&](double x, double y) { return eyy * y + (exy + 0.3) * x; });
+    const NodeTensor strain = node_strains(mesh.mesh, u), stress = stresses(strain, material);
+    // Slopes of 0.3 from differences of a dozen values of 0.2 over elements of 0.14: round-off of 1e-13 or so.
+    for (std::size_t node = 0; node < mesh.mesh.node_count; ++node) {
+      ASSERT_NEAR(strain.xx[node], exx, 1e-12);
+      ASSERT_NEAR(strain.yy[node], eyy, 1e-12);
+      ASSERT_NEAR(strain.xy[node], exy, 1e-12);
+      // Plane stress, E = 10 GPa, nu = 0.3: E/(1 - nu^2) (exx + nu eyy) and so on, E/(1 + nu) exy; 1e-12 of strain is 0.01 Pa.
+      ASSERT_NEAR(stress.xx[node], 1e10 / 0.91 * (exx + 0.3 * eyy), 0.05);
+      ASSERT_NEAR(stress.yy[node], 1e10 / 0.91 * (eyy + 0.3 * exx), 0.05);
+      ASSERT_NEAR(stress.xy[node], 1e10 / 1.3 * exy, 0.05);
+    }
+  }
+}
+
+// Of a plane wave across it the strain at the nodes converges with the degree, p: halving the elements takes 2^-p of the error.
+TEST_P(Kernel, StrainsOfAPlaneWaveConvergeWithTheDegree) {
+  const double k1 = 5.0, k2 = -3.0;
+  const auto error = [&](int n) {
+    const auto mesh = make_rectangle({.length = 1.0, .height = 1.0, .nx = n, .ny = n, .degree = GetParam(), .slant = 0.2});
+    const auto u = interpolate(
+        mesh, [&](double x, double y) { return std::sin(k1 * x + k2 * y); },
+        [&](double x, double y) { return 0.5 * std::cos(k1 * x + k2 * y); });
+    const NodeTensor strain = node_strains(mesh.mesh, u);
+    double sum = 0.0, square = 0.0;
+    for (std::size_t node = 0; node < mesh.mesh.node_count; ++node) {
+      const double phase = k1 * mesh.x[node] + k2 * mesh.y[node];
+      const double xx = k1 * std::cos(phase), yy = -0.5 * k2 * std::sin(phase);
+      const double xy = 0.5 * (k2 * std::cos(phase) - 0.5 * k1 * std::sin(phase));
+      sum += std::pow(strain.xx[node] - xx, 2) + std::pow(strain.yy[node] - yy, 2) + 2.0 * std::pow(strain.xy[node] - xy, 2);
+      square += xx * xx + yy * yy + 2.0 * xy * xy;
+    }
+    return std::sqrt(sum / square);
+  };
+  const int n = GetParam() > 4 ? 3 : 8;
+  const double order = std::log2(error(n) / error(2 * n));
+  // At least p; the mean of both sides may cancel the leading term (the odd degrees inside do), which adds up to one.
+  EXPECT_GT(order, GetParam() - 0.15);
+  EXPECT_LT(error(2 * n), 0.1);
 }
 
 TEST_P(Kernel, RectanglesAndParallelogramsMayBeGivenPointByPoint) {

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <stdexcept>
 
 #include "reports/color.h"
+#include "reports/packed.h"
 #include "tests/reports/full_report.h"
 
 namespace ddem::reports {
@@ -20,6 +22,36 @@ using nlohmann::json;
 
 const Figure& figure(const Report& report, std::size_t i) {
   return report.sections[0].figures[i];
+}
+
+/// Half a unit of the last of 16 significant bits.
+constexpr double kPackedError = 1.0 / 65536.0;
+
+/// Of base64 without padding, decoded by hand.
+std::vector<unsigned> bytes_of(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned> bytes;
+  for (std::size_t i = 0; i + 4 <= text.size(); i += 4) {
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 4; ++k) group = group << 6 | static_cast<unsigned>(digits.find(text[i + k]));
+    for (const int shift : {16, 8, 0}) bytes.push_back(group >> shift & 255u);
+  }
+  return bytes;
+}
+
+/// (-1)^sign 2^(exponent - 127) (1 + fraction / 2^15) of 1, 8 and 15 bits.
+std::vector<double> unpacked(const std::string& text) {
+  const std::vector<unsigned> bytes = bytes_of(text);
+  std::vector<double> values;
+  for (std::size_t i = 0; i + 3 <= bytes.size(); i += 3) {
+    const unsigned bits = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
+    const int exponent = static_cast<int>(bits >> 15 & 255u);
+    const double size = exponent == 0     ? 0.0
+                        : exponent == 255 ? std::nan("")
+                                          : std::ldexp(1.0 + (bits & 0x7fffu) / 32768.0, exponent - 127);
+    values.push_back(bits >> 23 != 0 ? -size : size);
+  }
+  return values;
 }
 
 TEST(Interactive, SeriesHaveTheirNumbersAndTheColoursOfTheSvg) {
@@ -50,12 +82,12 @@ TEST(Interactive, LongSignalsAreThinnedAndKeepTheirCrest) {
   const json live = json::parse(live_figure(figure(report, 1), 400));
   EXPECT_TRUE(live["figure"]["thinned"]);
   const json& series = live["figure"]["panels"][0]["series"][0];
-  const json& y = live["arrays"][series["y"].get<std::size_t>()];
+  const std::vector<double> y = unpacked(live["arrays"][series["y"].get<std::size_t>()]["packed"]);
   EXPECT_LE(y.size(), 400u);
   EXPECT_GE(y.size(), 200u);
   const auto& all = std::get<Plot>(figure(report, 1).panels[0]).series[0].y;
-  EXPECT_NEAR(*std::max_element(y.begin(), y.end()), *std::max_element(all.begin(), all.end()),
-              1e-14);  // six digits of 1e-8
+  const double crest = *std::max_element(all.begin(), all.end());
+  EXPECT_NEAR(*std::max_element(y.begin(), y.end()), crest, kPackedError * crest);
   EXPECT_EQ(live["figure"]["panels"][0]["xmarks"]["exponent"], -6);
 }
 
@@ -67,16 +99,33 @@ TEST(Interactive, FieldsOverTimeAreLevelsOfTheirLimits) {
   EXPECT_FALSE(live["figure"]["panels"][0]["fields"][1]["signed"]);
   const std::string bytes = field["bytes"];
   ASSERT_EQ(bytes.size(), 4u * 12 * 120 / 3);
-  // Decoded by hand: the first disc at rest, u = 1e-8 sin(900 * 0.25e-3), on 0 .. 254 from -1e-8 to 1e-8.
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto byte = [&](std::size_t i) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-      group = group << 6 | static_cast<unsigned>(digits.find(bytes[4 * (i / 3) + k]));
-    return group >> (16 - 8 * (i % 3)) & 255u;
-  };
-  EXPECT_EQ(byte(0), static_cast<unsigned>(std::lround(127.0 * (1.0 + std::sin(900.0 * 2.5e-4)))));
-  EXPECT_EQ(byte(3 * 120), 255u);  // the frame whose first disc has no value
+  // The first disc at rest, u = 1e-8 sin(900 * 0.25e-3), on 0 .. 254 from -1e-8 to 1e-8.
+  const std::vector<unsigned> levels = bytes_of(bytes);
+  EXPECT_EQ(levels[0], static_cast<unsigned>(std::lround(127.0 * (1.0 + std::sin(900.0 * 2.5e-4)))));
+  EXPECT_EQ(levels[3 * 120], 255u);  // the frame whose first disc has no value
+}
+
+TEST(Interactive, ManyNumbersArePackedWithinASixtiethOfAPixel) {
+  std::vector<double> values = {0.0, -0.0, 1.0, -1.0, 1.0 - 1e-9, 1e-37, -1e38, std::nan(""), std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < 1000; ++k) values.push_back(std::pow(-1.0, k) * std::pow(10.0, -30.0 + 0.0613 * k));
+  const std::vector<double> back = unpacked(packed_numbers(values).value());
+  ASSERT_EQ(back.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i]))
+      EXPECT_NEAR(back[i], values[i], kPackedError * std::abs(values[i]));
+    else
+      EXPECT_TRUE(std::isnan(back[i]));
+  }
+  EXPECT_EQ(unpacked(packed_numbers({1.0, 1e-40}).value())[1], 0.0);
+  EXPECT_FALSE(packed_numbers({1e-25, 1e-38}));  // within the digits of a double
+  EXPECT_FALSE(packed_numbers({1e39}));
+}
+
+TEST(Interactive, Base64) {
+  EXPECT_EQ(base64({}), "");  // RFC 4648, section 10
+  EXPECT_EQ(base64({'f'}), "Zg==");
+  EXPECT_EQ(base64({'f', 'o'}), "Zm8=");
+  EXPECT_EQ(base64({'f', 'o', 'o', 'b', 'a', 'r'}), "Zm9vYmFy");
 }
 
 /// Text inside <script> of the page, read as XML.

@@ -13,6 +13,7 @@
 #include "reports/figure_data.h"
 #include "reports/geometry.h"
 #include "reports/strip.h"
+#include "reports/text.h"
 
 namespace ddem::reports {
 namespace {
@@ -240,6 +241,24 @@ TEST(Svg, LegendNamesEverySeriesOnceAndCoversNoPanel) {
   const auto lines = drawing.all("line");
   EXPECT_STREQ(lines[0].attribute("stroke").value(), lines[2].attribute("stroke").value());
   EXPECT_STRNE(lines[0].attribute("stroke").value(), lines[1].attribute("stroke").value());
+}
+
+TEST(Svg, LongTitlesOfPanelsStayBesideEachOther) {
+  const Series line{.x = {0.0, 1.0}, .y = {0.0, 1.0}};
+  const Plot named{.title = "REGRESSED: long-wave/random/lagged-normal/kt0.30: P velocity by correlation over that of S0", .series = {line}};
+  const Plot brief{.title = "brief", .series = {line}};
+  const Drawing drawing({.id = "titles", .panels = {named, named, brief}});
+  const std::vector<pugi::xml_node> titles = drawing.all("ptitle");
+  ASSERT_GE(titles.size(), 5u);
+  for (const pugi::xml_node& t : titles) {
+    const double left = t.attribute("x").as_double(), right = left + text_width(t.text().get(), t.attribute("font-size").as_double());
+    EXPECT_LT(right, left < drawing.area(1).left - 1.0 ? drawing.area(1).left : 860.0);
+    EXPECT_TRUE(std::none_of(titles.begin(), titles.end(), [&](const pugi::xml_node& other) {
+      return other != t && other.attribute("x").as_double() == left && other.attribute("y").as_double() == t.attribute("y").as_double();
+    }));
+  }
+  EXPECT_EQ(drawing.area(0).top, drawing.area(1).top);
+  EXPECT_EQ(drawing.area(0).height, drawing.area(2).height);
 }
 
 TEST(Svg, StripHasEqualAspectRatioAndAllItsDiscs) {

@@ -67,6 +67,14 @@ TEST(StripFilm, StrainsFollowFromStressesByTheLawOfTheDisc) {
             1e-2 * largest);  // a hundred times the tolerance of the strains, for motions as short as a disc
 }
 
+/// One clock stands above both strips: a frame is at the first step after its time, of some hundred.
+TEST(StripFilm, FramesShowTheSameTime) {
+  const auto& rigid = run(Model::dem).frames;
+  const auto& deformable = run(Model::implicit_full).frames;
+  ASSERT_EQ(rigid.size(), deformable.size());
+  for (std::size_t k = 0; k < rigid.size(); ++k) EXPECT_NEAR(rigid[k].time, deformable[k].time, 5e-3 * rigid.back().time);
+}
+
 TEST(StripFilm, FigureHasAFieldOfZerosForTheStrainOfRigidDiscs) {
   const reports::Figure figure = film_figure(film());
   EXPECT_NO_THROW(reports::require_valid(figure));

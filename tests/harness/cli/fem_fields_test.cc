@@ -81,7 +81,7 @@ TEST_F(FemFields, AreInTheFileAsXdmfSays) {
   ASSERT_EQ(frames.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(frames[k].node().attribute("Value").as_double(), times[k]);
   const auto items = xdmf.select_nodes("//DataItem");
-  EXPECT_EQ(items.size(), 3u * 4);  // cells, position, displacement, velocity
+  EXPECT_EQ(items.size(), 3u * 10);  // cells, position, displacement, velocity, three of stress, three of strain
   for (const auto& node : items) {
     const std::string place = node.node().text().get();
     ASSERT_THAT(place, testing::StartsWith("new.h5:/"));

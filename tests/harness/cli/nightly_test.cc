@@ -7,6 +7,7 @@
 
 #include <csignal>
 
+#include "harness/io/atomic_file.h"
 #include "harness/io/json.h"
 #include "tests/harness/cli/program.h"
 
@@ -201,6 +202,24 @@ TEST_F(Nightly, BaselinesAndNights) {
   EXPECT_THAT(history.standard_output, HasSubstr("3 nights"));
   EXPECT_EQ(ddem({"history", path("nights"), "--regressions"}).exit_code, 1);
   EXPECT_EQ(ddem({"history", path("mistyped")}).exit_code, 2);
+}
+
+TEST_F(Nightly, TrendsAreInTheReportAndDrawnAgain) {
+  for (const char* folder : {"first", "second", "third"}) ASSERT_EQ(validate(folder, {"--history", path("nights")}).exit_code, 0);
+  const auto report = [this](const char* folder) { return read_file(in_folder(folder) / "report.html"); };
+  EXPECT_THAT(report("first"), HasSubstr("first night of its history"));
+  EXPECT_THAT(report("third"), HasSubstr("3 nights, "));
+  // Of three nights: x = -2, -1, 0 for each metric.
+  EXPECT_THAT(read_file(in_folder("third/figures/history-metrics.csv")), HasSubstr(",night,-2,"));
+  ASSERT_EQ(ddem({"report", path("third"), "-o", path("again")}).exit_code, 0);
+  EXPECT_EQ(report("again"), report("third"));
+
+  // A history that is damaged does not cost the results; the night is still added.
+  write("nights/torn.json", "{");
+  const auto run = validate("fourth", {"--history", path("nights")});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.standard_error, HasSubstr("torn.json"));
+  EXPECT_THAT(report("fourth"), HasSubstr("torn.json"));
 }
 
 TEST_F(Nightly, CampaignFilesListEveryProblem) {

@@ -61,7 +61,8 @@ x = points[:, 0]
 for k, (t, fields, _) in enumerate(frames):
     # A step of 0.1 of the critical one: below 1 ns.
     assert (k + 1) * 0.25e-6 * (1 - 1e-9) <= t < (k + 1) * 0.25e-6 + 2e-9, t
-    assert set(fields) == {"displacement", "velocity"}, set(fields)
+    tensors = {f"{name}_{part}" for name in ("stress", "strain") for part in ("xx", "yy", "xy")}
+    assert set(fields) == {"displacement", "velocity"} | tensors, set(fields)
     s = (x - centre - speed * t) / width, (x - centre + speed * t) / width
     right, left = (0.5e-6 * np.exp(-0.5 * q**2) for q in s)
     exact = {"displacement": right + left, "velocity": speed / width * (s[0] * right - s[1] * left)}
@@ -73,4 +74,11 @@ for k, (t, fields, _) in enumerate(frames):
         error = np.linalg.norm(found[:, 1] - wanted) / np.linalg.norm(wanted)
         assert error < 2e-3, (name, t, error)
         assert abs(found[:, 0]).max() < 1e-9 * abs(found[:, 1]).max() and (found[:, 2] == 0).all(), name
+    # uy' = 2 eps_xy and G uy' = sigma_xy, G = E/2.5, to the accuracy of the slope; nothing else but round-off.
+    slope = -(s[0] * right + s[1] * left) / width
+    for name, wanted in {"strain_xy": 0.5 * slope, "stress_xy": 10e9 / 2.5 * slope}.items():
+        error = np.linalg.norm(fields[name] - wanted) / np.linalg.norm(wanted)
+        assert error < 2e-3, (name, t, error)
+    for name in ("stress_xx", "stress_yy"):
+        assert abs(fields[name]).max() < 1e-9 * abs(fields["stress_xy"]).max(), name
 print(f"{len(frames)} frames of {nodes} nodes are d'Alembert's")
