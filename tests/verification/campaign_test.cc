@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "harness/campaign/run_campaign.h"
+#include "harness/campaign/strip_waves.h"
 #include "harness/campaign/verdicts.h"
+#include "harness/run/dem_run.h"
 
 namespace ddem::harness {
 namespace {
@@ -201,6 +203,24 @@ TEST(CampaignContinuum, DefectsAreFound) {
     }
     for (const char* id : {"static/hexagonal/dem/kt0.30", "long-wave/hexagonal/dem/kt0.30"})
       EXPECT_TRUE(reports::is_pass(verdict(verdicts, id).state)) << id;
+  }
+}
+
+/// The polynomial of implicit strains that runs share is the one that each would find by itself, to the last bit.
+TEST(Campaign, SharesWhatEachRunWouldFindItself) {
+  const StripCampaign s = reduced();
+  StripStatics shared(s, options(false));
+  const StripMaterial m{StripPacking::random, 1, Model::implicit_full, 0.3};
+  for (const WaveOutcome& w : run_material(s, m, shared, options(false)).waves) {
+    SCOPED_TRACE(id_of(w.c));
+    RunOptions alone;
+    alone.expected_speed = w.static_speed;
+    alone.critical_time_step = w.critical_time_step;
+    const DemRun run = run_scene(scene_of(w.scene, "alone"), alone);
+    EXPECT_EQ(run.sample_interval, w.recording.sample_interval);
+    const auto& u = wave_component(run.result.signals, *run.wave);
+    ASSERT_EQ(u.size(), w.recording.signals.size());
+    for (std::size_t p = 0; p < u.size(); ++p) EXPECT_EQ(u[p], w.recording.signals[p].values);
   }
 }
 
