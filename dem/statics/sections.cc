@@ -21,6 +21,12 @@ HeldDofs held_under(const Packing& p, double edge_band, int component) {
   return held;
 }
 
+StaticState pulled(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
+                   double edge_band, int component) {
+  const StaticSolver solver(a, contact, deformation, held_under(a.packing, edge_band, component));
+  return solver.solve_moved(right_end_moved(a.packing, edge_band, component, solver.operators().dofs_per_disc));
+}
+
 /// Force that the part right of the plane x = cut exerts on the part left of it.
 Eigen::Vector2d force_through(const Assembly& a, const Operators& op, const StaticState& state, double cut) {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
@@ -124,12 +130,20 @@ StaticSections static_sections(const Assembly& a, const ContactParameters& conta
                                const std::vector<SectionDiscs>& sections) {
   require_valid(sections, a.size());
   std::vector<StaticState> loads;
-  for (int k = 0; k < (a.packing.period.y > 0.0 ? 2 : 1); ++k) {
-    const StaticSolver solver(a, contact, deformation, held_under(a.packing, edge_band, k));
-    const int dofs = solver.operators().dofs_per_disc;
-    loads.push_back(solver.solve_moved(right_end_moved(a.packing, edge_band, k, dofs)));
-  }
+  for (int k = 0; k < (a.packing.period.y > 0.0 ? 2 : 1); ++k) loads.push_back(pulled(a, contact, deformation, edge_band, k));
   return sections_under(a, make_operators(a, contact, deformation), loads, sections);
+}
+
+std::vector<double> static_compliances(const Assembly& a, const ContactParameters& contact,
+                                       const DeformationParameters& deformation, double edge_band,
+                                       const std::vector<SectionDiscs>& sections, int component) {
+  require_valid(sections, a.size());
+  const StaticState state = pulled(a, contact, deformation, edge_band, component);
+  const Operators op = make_operators(a, contact, deformation);
+  const double force = force_through(a, op, state, middle(a.packing))[component];
+  std::vector<double> compliances;
+  for (const SectionDiscs& s : sections) compliances.push_back(mean_displacement(s, state, op.dofs_per_disc)[component] / force);
+  return compliances;
 }
 
 }  // namespace ddem

@@ -50,7 +50,13 @@ StaticSections static_sections(const Assembly& assembly, const ContactParameters
                                const DeformationParameters& deformation, double edge_band,
                                const std::vector<SectionDiscs>& sections);
 
-/// The same of states that the caller has found: one where only the force along x counts, or two that F and the sections'
+/// u of each section along x (component 0) or y (1) under a unit force along it, m/N: S(component, component) of the above,
+/// of one load alone. Throws as static_sections().
+std::vector<double> static_compliances(const Assembly& assembly, const ContactParameters& contact,
+                                       const DeformationParameters& deformation, double edge_band,
+                                       const std::vector<SectionDiscs>& sections, int component);
+
+/// static_sections() of states that the caller has found: one where only the force along x counts, or two that F and the sections'
 /// displacements are made of, u = S F, whatever forces along x and y go with each. Sections as static_sections().
 StaticSections sections_under(const Assembly& assembly, const Operators& operators, std::span<const StaticState> loads,
                               const std::vector<SectionDiscs>& sections);

@@ -44,11 +44,11 @@ double grip_offset(const Scene& scene, const ddem::Assembly& a, double static_sp
     if (place > 0.2 && place < 0.8 && !std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) inner.push_back(static_cast<int>(d));
   }
   const std::vector<SectionDiscs> sections = {edge_discs(a.packing, ddem::Edge::left, band), inner};
-  const StaticSections s = static_sections(a, contact_parameters(scene), deformation_parameters(scene), band, sections);
-  const int k = wave == Wave::shear ? 1 : 0;
+  const std::vector<double> compliance = static_compliances(a, contact_parameters(scene), deformation_parameters(scene), band,
+                                                            sections, wave == Wave::shear ? 1 : 0);
   // u' = F/(rho c^2 W h) in the continuum.
   const double stiffness = bulk_density(a) * static_speed * static_speed * a.packing.width * a.thickness;
-  return (s.displacement[1](k, k) - s.displacement[0](k, k)) * stiffness - (s.x[1] - s.x[0]);
+  return (compliance[1] - compliance[0]) * stiffness - (mean_x(a.packing, inner) - mean_x(a.packing, sections[0]));
 }
 
 std::optional<Rectangle> nominal_rectangle(const Scene& scene) {

@@ -146,6 +146,10 @@ TEST(Sections, AreTheSameInGripsThatHoldEverything) {
       const StaticSections held = GrippedStrip(a, c.contact(), c.deformation(), kEdgeBand).sections(sections);
       EXPECT_LT(relative(held.between(0, 1).p, free.between(0, 1).p), 5e-4) << c.description();
       EXPECT_LT(relative(held.between(0, 1).s, free.between(0, 1).s), 5e-4) << c.description();
+      for (const int k : {0, 1}) {
+        const auto alone = static_compliances(a, c.contact(), c.deformation(), kEdgeBand, sections, k);
+        EXPECT_LT(relative(alone[1] - alone[0], free.displacement[1](k, k) - free.displacement[0](k, k)), 1e-9) << c.description();
+      }
       // Compliances that couple P and S are 1e-2 of the others.
       const Eigen::Matrix2d s_free = free.displacement[1] - free.displacement[0], s_held = held.displacement[1] - held.displacement[0];
       EXPECT_LT((s_held - s_free).norm(), 1e-3 * s_free.norm()) << c.description();
