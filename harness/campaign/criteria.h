@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "harness/campaign/results.h"
 #include "reports/verdict.h"
 
 namespace ddem::harness {
@@ -18,6 +19,13 @@ inline Bounds relative(double target, double below, double above) {
 inline Bounds absolute(double target, double tolerance) {
   return {target, target - tolerance, target + tolerance};
 }
+
+/// "WHAT, DDEM F, k_t/k_n = 0.3" and "KIND/lagged-full/kt0.30".
+std::string title_of(const StripMaterial& material, const std::string& what);
+std::string case_id(const std::string& kind, const StripMaterial& material);
+
+/// Tolerances are for means of six packings; of fewer, the mean scatters more.
+double widened(double tolerance, std::size_t seeds);
 
 /// Pass within the bounds, fail outside, error where nothing finite was measured.
 reports::Criterion judge(const std::string& metric, std::optional<double> actual, const Bounds& bounds,

@@ -14,16 +14,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::size_t kShownPairs = 2;  // A and B, as in the paper
 
-reports::Color color_of(Model model) {
-  switch (model) {
-    case Model::dem: return reports::Color::blue;
-    case Model::lagged_normal: return reports::Color::vermilion;
-    case Model::lagged_full: return reports::Color::green;
-    case Model::implicit_full: return reports::Color::purple;
-  }
-  return reports::Color::automatic;
-}
-
 std::vector<double> times(const Recording& recording, std::size_t samples) {
   std::vector<double> t(samples);
   for (std::size_t n = 0; n < samples; ++n) t[n] = static_cast<double>(n) * recording.sample_interval;
@@ -71,6 +61,16 @@ reports::Plot velocity_panel(const CampaignResults& r, StripWave wave) {
 }
 
 }  // namespace
+
+reports::Color color_of(Model model) {
+  switch (model) {
+    case Model::dem: return reports::Color::blue;
+    case Model::lagged_normal: return reports::Color::vermilion;
+    case Model::lagged_full: return reports::Color::green;
+    case Model::implicit_full: return reports::Color::purple;
+  }
+  return reports::Color::automatic;
+}
 
 SpeedPoint random_speed(const CampaignResults& r, Model model, double ratio, Protocol protocol, StripWave wave) {
   std::vector<double> measured, statics, kinematic;

@@ -8,6 +8,9 @@
 
 namespace ddem::harness {
 
+/// The same in all figures.
+reports::Color color_of(Model model);
+
 /// Means over those seeds of the random packings that gave a velocity; not-a-number where none did.
 struct SpeedPoint {
   Uncertain measured;

@@ -15,6 +15,7 @@ Json to_json_text(const CampaignSpec& spec) {
   return {{"strip", strip},
           {"with_strip", spec.with_strip},
           {"cases", cases},
+          {"with_waves", spec.with_waves},
           {"with_fem", spec.with_fem},
           {"with_studies", spec.with_studies},
           {"only", spec.only}};
@@ -25,6 +26,7 @@ CampaignSpec spec_of(const Json& j) {
     return {nlohmann::json(j.at("strip")).get<StripCampaign>(),
             j.at("with_strip"),
             nlohmann::json(j.at("cases")).get<std::vector<UserCase>>(),
+            j.at("with_waves"),
             j.at("with_fem"),
             j.at("with_studies"),
             j.at("only")};
@@ -34,6 +36,7 @@ CampaignSpec spec_of(const Json& j) {
 }
 
 PlannedCampaign::PlannedCampaign(const CampaignSpec& spec, CampaignOptions options) : spec_(spec) {
+  options.with_waves = spec.with_waves;
   options.with_fem = spec.with_fem;
   options.with_studies = spec.with_studies;
   if (spec.with_strip) {

@@ -18,6 +18,7 @@ struct CampaignSpec {
   StripCampaign strip;
   bool with_strip = true;
   std::vector<UserCase> cases = {};
+  bool with_waves = true;  ///< false: statics alone, whatever else is asked for
   bool with_fem = true, with_studies = true;
   std::string only = {};  ///< one verdict by its name; empty: all
 };

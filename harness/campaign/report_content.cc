@@ -18,6 +18,7 @@
 #include "harness/campaign/scheme_figures.h"
 #include "harness/campaign/size_figures.h"
 #include "harness/campaign/stability_figures.h"
+#include "harness/campaign/static_figures.h"
 #include "harness/measure/elastic_constants.h"
 #include "harness/provenance/provenance.h"
 #include "reports/number.h"
@@ -37,6 +38,7 @@ std::string range_text(const std::vector<double>& values) {
 
 std::vector<reports::Headline> headlines(const CampaignResults& r) {
   std::vector<reports::Headline> out;
+  if (!r.has_waves()) return out;
   for (const Model model : r.campaign.models) {
     const PoissonCurve measured = poisson_curve(r, model);
     out.push_back(
@@ -110,6 +112,18 @@ reports::Section overview(const CampaignResults& r) {
                      "same assemblies, with kinematic closed forms, and with a finite-element model that has the static moduli."},
       .figures = {poisson_figure(r), velocity_figure(r)},
       .tables = {speed_table(r, Protocol::long_wave)}};
+}
+
+reports::Section statics(const CampaignResults& r) {
+  reports::Section section{
+      .heading = "Wave speeds without time steps",
+      .paragraphs = {"Long waves travel at speeds that static moduli give, sqrt(G/ρ) and sqrt((K + G)/ρ), and the lattice's plane waves "
+                     "give them too, as ω/k for k → 0. Neither takes a time step: ddem validate --static makes this section alone, "
+                     "for all materials of the campaign."},
+      .figures = {speed_error_figure(r)},
+      .tables = {speed_error_table(r)}};
+  if (!r.has_waves()) section.figures.push_back(static_speed_figure(r));
+  return section;
 }
 
 reports::Section waves(const CampaignResults& r) {
@@ -231,10 +245,11 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
   report.headlines = headlines(r);
   report.verdicts = verdicts;
   for (reports::Verdict& v : report.verdicts) v.facets = facets_of(v.case_id);
-  report.sections = {overview(r), waves(r), paper(r)};
+  if (r.has_waves()) report.sections = {overview(r), waves(r), paper(r)};
   if (r.range) report.sections.front().figures.push_back(range_figure(*r.range));
   if (r.film) report.sections[1].figures.push_back(energy_figure(*r.film));
   if (r.dispersion) report.sections[1].figures.push_back(dispersion_figure(*r.dispersion));
+  report.sections.push_back(statics(r));
   if (r.sizes) report.sections.push_back(sizes(r));
   if (!r.calibrations.empty()) report.sections.push_back(calibration(r));
   if (r.schemes) report.sections.push_back(schemes(r));

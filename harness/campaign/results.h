@@ -8,6 +8,7 @@
 
 #include "dem/statics/moduli.h"
 #include "harness/bench/precision.h"
+#include "harness/campaign/bloch_limit.h"
 #include "harness/campaign/calibration_study.h"
 #include "harness/campaign/design_study.h"
 #include "harness/campaign/discrimination_study.h"
@@ -53,6 +54,8 @@ struct StaticOutcome {
   double critical_time_step = 0.0;
   /// Hexagonal only: homogenised unit cell, to be compared with the closed form.
   std::optional<IsotropicModuli> cell;
+  std::optional<BlochLimit> bloch;  ///< hexagonal only
+  double solve_seconds = 0.0;       ///< wall time of the strip's moduli: both its edges, factorised and solved
 };
 
 struct PickedSignal {
@@ -89,6 +92,7 @@ struct WaveOutcome {
   double section_speed = 0.0;  ///< static, between the same sections; 0 on the lattice and for single discs
   double time_step = 0.0, critical_time_step = 0.0;
   long steps = 0;
+  double seconds = 0.0;  ///< wall time, the mean of its material's waves
   std::optional<double> energy_drift;
   Recording recording;
 };
@@ -148,6 +152,8 @@ struct CampaignResults {
   std::optional<StripFilm> film;
   double wall_seconds = 0.0;
 
+  /// Whether the strip's waves were to be run.
+  bool has_waves() const { return !waves.empty(); }
   const StaticOutcome* find(const StripMaterial& key) const;
   const WaveOutcome* find(const StripCase& c) const;
   /// The continuum of that material: see continuum_model().

@@ -98,8 +98,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneModuli, discs, bonds, rattlers, coordina
                                    bulk_density, method, stiffness, strip)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripMaterial, packing, seed, model, stiffness_ratio)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Speeds, bar, shear, p)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BlochLimit, shear, p, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StaticOutcome, key, failure, moduli, speeds, sections, kinematic,
-                                   kinematic_speeds, critical_time_step, cell)
+                                   kinematic_speeds, critical_time_step, cell, bloch, solve_seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickedSignal, probe, x, values, window_end, pick_time, pick_amplitude,
                                    pick_failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Recording, sample_interval, signals)
@@ -107,7 +108,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickedSpeeds, peak, centroid, correlation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WaveOutcome, c, scene, failure, diverged, diverged_step, diverged_disc,
                                    speed, speed_stddev, centroid_speed, correlation_speed, s0, good_pairs,
                                    static_speed, kinematic_speed, section_speed, time_step,
-                                   critical_time_step, steps, energy_drift, recording)
+                                   critical_time_step, steps, seconds, energy_drift, recording)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripPicture, packing, time, displacement, probe_x, probe_y, probe_labels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilmedRun, model, packing, frames, energy)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripFilm, failure, stiffness_ratio, runs, probes)

@@ -11,6 +11,7 @@ namespace ddem::harness {
 struct CampaignOptions {
   int jobs = 1;
   bool with_fem = true;
+  bool with_waves = true;    ///< false: statics and Bloch limits of the strip alone, and nothing that needs waves
   bool with_studies = true;  ///< of schemes, and of the range of Poisson's ratio
   /// Called from any thread, with the work done since the last call out of campaign_work().
   std::function<void(std::size_t)> on_progress;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "dem/spectra/spectra.h"
 #include "dem/spectra/strain_polynomial.h"
 #include "harness/model/assemble.h"
@@ -68,25 +70,34 @@ Speeds StripStatics::section_speeds_of(const StripMaterial& key, const GrippedSt
   return {open.bar, periodic.s, periodic.p};
 }
 
+/// A lattice's cell has all its bonds; a strip's ends have not.
+void StripStatics::solve_cell(StaticOutcome& out) {
+  StripCampaign small = campaign_;
+  small.columns = small.rows = 8;
+  Scene cell = scene_of(assembly_text(small, case_of(out.key, StripWave::p), true), "cell");
+  out.kinematic = kinematic_moduli(cell, build_assembly(cell));
+  if (options_.disturb_scene) options_.disturb_scene(cell);
+  out.cell = scene_moduli(cell).isotropic();
+  const ddem::Assembly discs = build_assembly(cell);
+  out.bloch = bloch_limit({discs.packing.radius.front(), discs.density, discs.thickness}, contact_parameters(cell),
+                          deformation_parameters(cell));
+}
+
 StaticOutcome StripStatics::solve(const StripMaterial& key) {
   StaticOutcome out;
   out.key = key;
   try {
     const Scene scene = scene_of(assembly_text(campaign_, case_of(key, StripWave::bar), false), "statics");
-    const ddem::Assembly& closed = strip(key.packing, key.seed, true);
-    const GrippedStrip free_strip = gripped(scene, strip(key.packing, key.seed, false)), closed_strip = gripped(scene, closed);
+    const ddem::Assembly &closed = strip(key.packing, key.seed, true), &free = strip(key.packing, key.seed, false);
+    const auto start = std::chrono::steady_clock::now();
+    const GrippedStrip free_strip = gripped(scene, free), closed_strip = gripped(scene, closed);
     out.moduli = scene_moduli(free_strip, closed_strip);
+    out.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const DirectionalSpeeds speeds = out.moduli.speeds().value();
     out.speeds = {speeds.bar, speeds.s, speeds.p};
     out.critical_time_step = critical_time_step_of(key);
-    // A lattice's cell has all its bonds; a strip's ends have not.
     if (key.packing == StripPacking::hexagonal) {
-      StripCampaign small = campaign_;
-      small.columns = small.rows = 8;
-      Scene cell = scene_of(assembly_text(small, case_of(key, StripWave::p), true), "cell");
-      out.kinematic = kinematic_moduli(cell, build_assembly(cell));
-      if (options_.disturb_scene) options_.disturb_scene(cell);
-      out.cell = scene_moduli(cell).isotropic();
+      solve_cell(out);
     } else {
       out.kinematic = kinematic_moduli(scene, closed);
       out.sections = section_speeds_of(key, free_strip, closed_strip);

@@ -64,6 +64,7 @@ class StripStatics {
 
  private:
   StaticOutcome solve(const StripMaterial& material);
+  void solve_cell(StaticOutcome& lattice);
   /// Of the closed strip and rigid discs, whatever the model: the free one lacks some of its bonds, so that its own is longer.
   double critical_time_step_of(const StripMaterial& material);
   Speeds section_speeds_of(const StripMaterial& material, const GrippedStrip& free, const GrippedStrip& closed);

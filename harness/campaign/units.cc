@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 
 #include "harness/bench/bench.h"
@@ -67,7 +68,11 @@ void keep_shown(const StripCampaign& s, MaterialOutcome& m) {
 CampaignUnit material_unit(const SharedCampaign& c, const StripMaterial& m, std::size_t k,
                            std::size_t first_wave) {
   const auto run = [c, m] {
+    c->statics.of(m);  // kept: the clock is for the waves
+    const auto start = std::chrono::steady_clock::now();
     MaterialOutcome found = run_material(c->campaign, m, c->statics, c->options);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    for (WaveOutcome& w : found.waves) w.seconds = elapsed.count() / static_cast<double>(found.waves.size());
     keep_shown(c->campaign, found);
     return json(found);
   };
@@ -96,6 +101,21 @@ void add_materials(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
     units.push_back(material_unit(c, m, k, first_wave));
     ++k;
     first_wave += cases_of(m).size();
+  }
+}
+
+/// Statics alone.
+void add_statics(const SharedCampaign& c, std::vector<CampaignUnit>& units) {
+  const auto materials = materials_of(c->campaign);
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    const StripMaterial m = materials[k];
+    units.push_back(
+        {{"statics/" + slug_of(m), inputs_of(c->campaign, m).dump(), 1, [c, m] { return json(c->statics.of(m)); }},
+         taking<StaticOutcome>([k](StaticOutcome&& found, CampaignResults& r) {
+           if (found.key != r.statics[k].key) throw std::runtime_error("the result is another material's");
+           r.statics[k] = std::move(found);
+         }),
+         [k](const std::string& reason, CampaignResults& r) { r.statics[k].failure = reason; }});
   }
 }
 
@@ -214,11 +234,13 @@ CampaignResults empty_results(const StripCampaign& s, const CampaignOptions& opt
   for (const StripMaterial& m : materials_of(s)) {
     r.statics.emplace_back().key = m;
     r.statics.back().failure = not_run;
+    if (!options.with_waves) continue;
     for (const StripCase& c : cases_of(m)) {
       r.waves.emplace_back().c = c;
       r.waves.back().failure = not_run;
     }
   }
+  if (!options.with_waves) return r;
   for (const StripMaterial& m : lattices_with_strain(s)) {
     r.stability.push_back(
         {.key = m, .failure = not_run, .expected_unstable = expected_unstable(s, m), .diverged_step = {}});
@@ -246,6 +268,10 @@ CampaignResults empty_results(const StripCampaign& s, const CampaignOptions& opt
 std::vector<CampaignUnit> units_of(const StripCampaign& s, const CampaignOptions& options) {
   const SharedCampaign c(new Shared{s, options, StripStatics(s, options), stability_grid(s.full_stability)});
   std::vector<CampaignUnit> units;
+  if (!options.with_waves) {
+    add_statics(c, units);
+    return units;
+  }
   if (options.with_fem) add_fem(c, units);
   if (options.with_studies) {
     add_sizes(c, units);

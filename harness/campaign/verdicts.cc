@@ -8,6 +8,7 @@
 #include "harness/campaign/criteria.h"
 #include "harness/campaign/dispersion_figures.h"
 #include "harness/campaign/stability_figures.h"
+#include "harness/campaign/static_verdicts.h"
 #include "harness/campaign/paper_bias.h"
 #include "harness/campaign/pickers.h"
 #include "harness/campaign/waveforms.h"
@@ -19,28 +20,8 @@ using reports::Criterion;
 using reports::State;
 using reports::Verdict;
 
-std::string title_of(const StripMaterial& key, const std::string& what) {
-  return fmt::format("{}, {}, k_t/k_n = {:g}", what, name(key.model), key.stiffness_ratio);
-}
-
-std::string case_id(const std::string& kind, const StripMaterial& key) {
-  return fmt::format("{}/{}", kind, material_slug(key.model, key.stiffness_ratio));
-}
-
 StripCase wave_case(const StripMaterial& key, Protocol protocol, StripWave wave) {
   return {key.packing, key.seed, key.model, key.stiffness_ratio, protocol, wave};
-}
-
-Verdict static_verdict(const StaticOutcome& s) {
-  Verdict v{.case_id = case_id("static/hexagonal", s.key), .title = title_of(s.key, "Homogenised lattice against its closed form"), .reason = s.failure};
-  const IsotropicModuli closed{s.kinematic.bulk, s.kinematic.shear};
-  const char* derivation = "closed form of the infinite lattice; a sparse solve in double precision reaches 1e-10";
-  const auto cell = s.cell;
-  v.criteria = {judge("Young's modulus", cell ? std::optional(cell->young()) : std::nullopt, relative(closed.young(), 1e-10, 1e-10), "Pa", derivation),
-                judge("shear modulus", cell ? std::optional(cell->shear) : std::nullopt, relative(closed.shear, 1e-10, 1e-10), "Pa", derivation),
-                judge("Poisson's ratio", cell ? std::optional(cell->poisson()) : std::nullopt, absolute(closed.poisson(), 1e-10), "", derivation)};
-  conclude(v);
-  return v;
 }
 
 /// A lattice released from noise: where theory says so, it must diverge; elsewhere it must not.
@@ -116,9 +97,6 @@ std::optional<double> poisson_error(const CampaignResults& r, StripMaterial key)
   }
   return sum / static_cast<double>(r.campaign.seeds.size());
 }
-
-/// Tolerances are for means of six packings; of fewer, the mean scatters more.
-double widened(double tolerance, std::size_t seeds) { return tolerance * std::sqrt(std::max(1.0, 6.0 / static_cast<double>(seeds))); }
 
 void judge_bulk_wave(const CampaignResults& r, const StripMaterial& key, StripWave wave, Verdict& v) {
   const std::size_t seeds = r.campaign.seeds.size();  // every one must give a velocity
@@ -303,9 +281,11 @@ std::vector<Verdict> verdicts_of(const CampaignResults& r) {
   std::vector<Verdict> verdicts;
   for (const StaticOutcome& s : r.statics) {
     if (s.key.packing != StripPacking::hexagonal) continue;
-    verdicts.push_back(static_verdict(s));
-    verdicts.push_back(lattice_verdict(r, s));
     const StripMaterial random{StripPacking::random, 0, s.key.model, s.key.stiffness_ratio};
+    verdicts.push_back(static_verdict(s));
+    verdicts.push_back(random_static_verdict(r, random));
+    if (!r.has_waves()) continue;
+    verdicts.push_back(lattice_verdict(r, s));
     verdicts.push_back(random_verdict(r, random));
     verdicts.push_back(paper_verdict(r, random));
   }

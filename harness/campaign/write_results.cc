@@ -74,6 +74,24 @@ void write_wave(Hdf5Group& parent, const WaveOutcome& w) {
   write_recording(g, w.recording);
 }
 
+/// Plain attributes, SI units.
+void write_statics(Hdf5Group& parent, const StaticOutcome& s) {
+  const std::string packing = s.key.packing == StripPacking::hexagonal ? "hexagonal" : fmt::format("random-{}", s.key.seed);
+  Hdf5Group g = parent.create_group(group_name(packing + "/" + material_slug(s.key.model, s.key.stiffness_ratio)));
+  g.set_attribute("status", s.failure.empty() ? std::string("ok") : s.failure);
+  if (!s.failure.empty()) return;
+  for (const StripWave wave : {StripWave::bar, StripWave::shear, StripWave::p}) {
+    set_finite(g, fmt::format("static_{}_speed", name(wave)), s.speeds.of(wave));
+    set_finite(g, fmt::format("kinematic_{}_speed", name(wave)), s.kinematic_speeds.of(wave));
+    if (s.key.packing == StripPacking::random) set_finite(g, fmt::format("static_{}_speed_between_sections", name(wave)), s.sections.of(wave));
+  }
+  if (s.bloch) {
+    set_finite(g, "bloch_shear_speed", s.bloch->shear);
+    set_finite(g, "bloch_P_speed", s.bloch->p);
+  }
+  set_finite(g, "solve_seconds", s.solve_seconds);
+}
+
 void write_stability(Hdf5Group& parent, const StabilityOutcome& o) {
   Hdf5Group g = parent.create_group(group_name(material_slug(o.key.model, o.key.stiffness_ratio)));
   g.set_attribute("status", !o.failure.empty() ? o.failure : o.diverged_step ? fmt::format("diverged at step {}", *o.diverged_step) : "stable");
@@ -222,6 +240,8 @@ void write_hdf5(const std::filesystem::path& target, const CampaignResults& r, c
     Hdf5Group root = file.root();
     root.set_attribute("title", r.campaign.title);
     for (const auto& [key, value] : provenance()) root.set_attribute(key, value);
+    Hdf5Group statics = root.create_group("statics");
+    for (const StaticOutcome& s : r.statics) write_statics(statics, s);
     Hdf5Group waves = root.create_group("waves");
     for (const WaveOutcome& w : r.waves) write_wave(waves, w);
     Hdf5Group stability = root.create_group("stability");

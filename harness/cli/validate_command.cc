@@ -22,7 +22,7 @@ namespace {
 struct Options {
   std::string campaign, folder = "ddem-report", shard, only, baseline, history;
   int jobs = 0;
-  bool resume = false, plan = false;
+  bool resume = false, plan = false, statics = false;
 };
 
 /// A study's case.
@@ -55,6 +55,16 @@ void restrict_to(StripCampaign& campaign, const std::string& id) {
   campaign = narrowed;
 }
 
+/// What steps in time cannot be asked for.
+void leave_statics_alone(const Options& o, CampaignSpec& spec) {
+  if (!spec.with_strip) throw InputError(o.campaign + ": no [strip]: --static is for its moduli; for those of a scene: ddem moduli SCENE.toml");
+  if (!o.only.empty() && !o.only.starts_with("static/")) {
+    throw InputError("--only " + o.only + ": steps in time, which --static leaves out; its cases are static/..., such as static/random/dem/kt0.30");
+  }
+  spec.cases.clear();
+  spec.with_waves = spec.with_fem = spec.with_studies = false;
+}
+
 CampaignSpec spec_from(const Options& o) {
   CampaignSpec spec;
   if (!o.campaign.empty()) {
@@ -72,6 +82,7 @@ CampaignSpec spec_from(const Options& o) {
     restrict_to(spec.strip, o.only);
     spec.with_studies = is_study(o.only);
   }
+  if (o.statics) leave_statics_alone(o, spec);
   return spec;
 }
 
@@ -125,7 +136,7 @@ int run(const Options& o) {
   run.on_progress = options.on_progress;
   const auto work = [&](bool first_time) {
     run.resume = o.resume || !first_time;
-    progress.emplace(campaign.work(shard), "simulations");
+    progress.emplace(campaign.work(shard), o.statics ? "static solves" : "simulations");
     const CampaignResults results = campaign.run(run);
     progress.reset();
     return o.shard.empty() ? conclude_campaign(campaign, results, conclusion) : end_of_shard(o, results, shard.size(plan.units.size()));
@@ -151,6 +162,9 @@ void add_validate_command(CLI::App& app, Action& action) {
   command->add_option("-o,--output", o->folder, "folder for the report and results")->capture_default_str();
   command->add_option("-j,--jobs", o->jobs, "simulations at a time (default: the machine's cores)")->check(CLI::Range(1, 1024));
   command->add_option("--only", o->only, "one case of the report by its name, with all that it needs");
+  command->add_flag("--static", o->statics,
+                    "wave speeds without time steps: static moduli and Bloch limits of the strip's materials, in seconds; no waves, studies,\n"
+                    "finite elements or [[case]]");
   command->add_option("--baseline", o->baseline, "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
   command->add_option("--history", o->history, "folder that gets one file of this run, and whose trends the report draws; see ddem history");
   command->add_option("--shard", o->shard,

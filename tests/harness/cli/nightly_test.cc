@@ -222,6 +222,40 @@ TEST_F(Nightly, TrendsAreInTheReportAndDrawnAgain) {
   EXPECT_THAT(report("fourth"), HasSubstr("torn.json"));
 }
 
+/// Without time steps: the same in one piece, resumed, and from shards; what steps in time is refused.
+TEST_F(Nightly, StaticsAlone) {
+  write("campaign.toml",
+        "[strip]\nseeds = [1, 2]\nmodels = [\"dem\", \"implicit-full\"]\nstiffness_ratios = [0.3]\ndiscs = 300\nlength = "
+        "\"7.3 mm\"\npulse_length = \"4 mm\"\n");
+  const auto whole = validate("one", {"--static"});
+  ASSERT_EQ(whole.exit_code, 0) << whole.standard_output << whole.standard_error;
+  EXPECT_THAT(whole.standard_output, HasSubstr("4 of 4 passed"));  // lattice and random, of two models
+  for (const char* file : {"report.html", "summary.json", "junit.xml", "results.h5", "figures/speed-errors.csv"})
+    EXPECT_TRUE(std::filesystem::exists(in_folder("one") / file)) << file;
+  const std::string expected = outcome("one");
+  std::filesystem::remove(in_folder("one") / "cases/statics/hexagonal/dem/kt0.30.unit");
+  ASSERT_EQ(validate("one", {"--static", "--resume"}).exit_code, 0);
+  EXPECT_EQ(outcome("one"), expected);
+  for (const char* i : {"1", "2"})
+    ASSERT_EQ(validate(std::string("shard-") + i, {"--static", "--shard", std::string(i) + "/2"}).exit_code, 0);
+  ASSERT_EQ(ddem({"merge", path("shard-1"), path("shard-2"), "-o", path("merged")}).exit_code, 0);
+  EXPECT_EQ(outcome("merged"), expected);
+  const std::string report = read_file(in_folder("one") / "report.html");
+  ASSERT_EQ(ddem({"report", path("one")}).exit_code, 0);
+  EXPECT_EQ(read_file(in_folder("one") / "report.html"), report);
+
+  // Another plan is in the folder.
+  EXPECT_EQ(validate("one", {"--resume"}).exit_code, 2);
+  const auto wave = validate("two", {"--static", "--only", "long-wave/random/dem/kt0.30"});
+  EXPECT_EQ(wave.exit_code, 2);
+  EXPECT_THAT(wave.standard_error, HasSubstr("steps in time"));
+  write("campaign.toml", kCampaign);
+  const auto cases = validate("two", {"--static"});
+  EXPECT_EQ(cases.exit_code, 2);
+  EXPECT_THAT(cases.standard_error, HasSubstr("no [strip]"));
+  EXPECT_FALSE(std::filesystem::exists(in_folder("two")));
+}
+
 TEST_F(Nightly, CampaignFilesListEveryProblem) {
   write("campaign.toml", R"([[case]]
 id = "small"

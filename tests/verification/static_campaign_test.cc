@@ -1,0 +1,183 @@
+// Wave speeds of a campaign without time steps: Bloch limits against closed forms, verdicts that find a
+// millionth, and nothing that steps in time among the units.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/campaign/bloch_limit.h"
+#include "harness/campaign/planned_campaign.h"
+#include "harness/campaign/report_content.h"
+#include "harness/campaign/run_campaign.h"
+#include "harness/campaign/static_figures.h"
+#include "harness/campaign/verdicts.h"
+#include "harness/references/effective_moduli.h"
+
+namespace ddem::harness {
+namespace {
+
+StripCampaign reduced() {
+  StripCampaign s;
+  s.stiffness_ratios = {0.0, 0.3};
+  s.seeds = {1, 2};
+  s.discs = 300;
+  s.length = 7.3e-3;
+  s.pulse_length = 4e-3;
+  return s;
+}
+
+CampaignOptions statics_alone() {
+  CampaignOptions o;
+  o.with_waves = false;
+  return o;
+}
+
+/// Run once for all tests.
+const CampaignResults& results() {
+  static const CampaignResults r = run_campaign(reduced(), statics_alone());
+  return r;
+}
+
+/// The states of the criteria that failed, "case: metric".
+std::vector<std::string> failed(const CampaignResults& r) {
+  std::vector<std::string> names;
+  for (const reports::Verdict& v : verdicts_of(r)) {
+    for (const reports::Criterion& c : v.criteria) {
+      if (c.state != reports::State::pass) names.push_back(v.case_id + ": " + c.metric);
+    }
+  }
+  return names;
+}
+
+StaticOutcome& lattice(CampaignResults& r, Model model) {
+  return *std::find_if(r.statics.begin(), r.statics.end(), [&](const StaticOutcome& s) {
+    return s.key == StripMaterial{StripPacking::hexagonal, 0, model, 0.3};
+  });
+}
+
+// bloch_limit.cc: dispersion leaves 1.5e-9 and round-off 1e-9 of discs ten times as soft as their contacts;
+// twice that. At kr = 0.005 alone the dispersion of rigid discs, A = 0.15, would be 4e-6.
+TEST(BlochLimit, IsTheClosedFormAtAnySoftnessAndRatio) {
+  using references::ContactModel;
+  constexpr double kNormal = 1e10, kDensity = 2000.0, kRadius = 1e-4, kPoisson = 0.3;
+  const double bulk_density = kDensity * references::hexagonal_fabric().solid_fraction;
+  const std::vector<std::pair<ContactModel, Correction>> models = {
+      {ContactModel::ddem_normal, Correction::normal}, {ContactModel::ddem_full, Correction::full}};
+  const auto expect_closed_form = [&](ContactModel model, const DeformationParameters& d, double ratio) {
+    ContactParameters contact;
+    contact.normal_stiffness = kNormal;
+    contact.stiffness_ratio = ratio;
+    const references::PlaneModuli moduli = references::effective_moduli(
+        model, references::hexagonal_fabric(), {kNormal, ratio}, {{d.young_modulus, d.poisson_ratio}});
+    const auto closed = references::bulk_wave_speeds(moduli, bulk_density);
+    const BlochLimit bloch = bloch_limit({kRadius, kDensity}, contact, d);
+    EXPECT_NEAR(bloch.shear / closed.shear, 1.0, 5e-9) << ratio << " " << d.young_modulus;
+    EXPECT_NEAR(bloch.p / closed.p, 1.0, 5e-9) << ratio << " " << d.young_modulus;
+  };
+  for (const double ratio : {0.0, 0.1, 0.5, 1.0}) {
+    expect_closed_form(ContactModel::dem, {}, ratio);
+    for (const auto& [model, correction] : models) {
+      for (const double softness : {0.01, 0.25, 10.0}) {
+        DeformationParameters d;
+        d.scheme = Scheme::implicit;
+        d.correction = correction;
+        d.young_modulus = kNormal / softness;
+        d.poisson_ratio = kPoisson;
+        expect_closed_form(model, d, ratio);
+      }
+    }
+  }
+}
+
+TEST(StaticCampaign, PassesAndTakesNoStep) {
+  const CampaignResults& r = results();
+  EXPECT_TRUE(r.waves.empty() && r.fem.empty() && r.stability.empty() && !r.schemes && !r.film);
+  EXPECT_EQ(failed(r), std::vector<std::string>{});
+  // The lattice and the random packings of four models at two ratios.
+  EXPECT_EQ(verdicts_of(r).size(), 16u);
+  CampaignSpec spec;
+  spec.strip = reduced();
+  spec.with_waves = false;
+  const PlannedCampaign planned(spec);
+  EXPECT_EQ(planned.plan().units.size(), r.statics.size());
+  for (const auto& unit : planned.plan().units) EXPECT_TRUE(unit.id.starts_with("statics/")) << unit.id;
+}
+
+struct Mutation {
+  std::string metric;
+  std::function<void(StaticOutcome&)> apply;
+};
+
+TEST(StaticCampaign, AMillionthInASpeedFailsItsCriterionAlone) {
+  constexpr double kWrong = 1.0 + 1e-6;
+  const std::vector<Mutation> mutations = {
+      {"shear velocity, static", [](StaticOutcome& s) { s.speeds.shear *= kWrong; }},
+      {"P velocity, static", [](StaticOutcome& s) { s.speeds.p *= kWrong; }},
+      {"shear velocity, Bloch limit", [](StaticOutcome& s) { s.bloch->shear *= kWrong; }},
+      {"P velocity, Bloch limit", [](StaticOutcome& s) { s.bloch->p *= kWrong; }}};
+  for (const Mutation& m : mutations) {
+    for (const Model model : {Model::dem, Model::lagged_normal, Model::implicit_full}) {
+      CampaignResults r = results();
+      m.apply(lattice(r, model));
+      EXPECT_EQ(failed(r),
+                std::vector<std::string>{"static/hexagonal/" + material_slug(model, 0.3) + ": " + m.metric});
+    }
+  }
+}
+
+/// A random packing stiffer than the bound, or sections that are not the packing's.
+TEST(StaticCampaign, RandomPackingsThatCannotBeFail) {
+  CampaignResults stiff = results(), elsewhere = results();
+  for (StaticOutcome& s : stiff.statics) {
+    if (s.key == StripMaterial{StripPacking::random, 2, Model::dem, 0.3}) *s.moduli.stiffness *= 1.5;
+  }
+  const std::string id = "static/random/" + material_slug(Model::dem, 0.3) + ": ";
+  EXPECT_EQ(failed(stiff), (std::vector<std::string>{id + "highest bulk modulus over its kinematic bound",
+                                                     id + "highest shear modulus over its kinematic bound"}));
+  for (StaticOutcome& s : elsewhere.statics) {
+    if (s.key.packing == StripPacking::random && s.key.model == Model::dem && s.key.stiffness_ratio == 0.3)
+      s.sections.p *= 1.05;
+  }
+  EXPECT_EQ(failed(elsewhere),
+            std::vector<std::string>{id + "P velocity between the sections over that of the whole packing"});
+}
+
+TEST(StaticCampaign, ErrorsAreAgainstTheClosedForm) {
+  CampaignResults r = results();
+  StaticOutcome& s = lattice(r, Model::dem);
+  s.speeds.shear = 1.25 * s.kinematic_speeds.shear;
+  s.bloch->shear = 0.5 * s.kinematic_speeds.shear;
+  WaveOutcome& w = r.waves.emplace_back();
+  w.c = {StripPacking::hexagonal, 0, Model::dem, 0.3, Protocol::long_wave, StripWave::shear};
+  w.speed = 0.75 * s.kinematic_speeds.shear;
+  const SpeedErrors errors = lattice_errors(r, s, StripWave::shear);
+  EXPECT_NEAR(errors.statics.value(), 0.25, 1e-15);
+  EXPECT_NEAR(errors.bloch.value(), -0.5, 1e-15);
+  EXPECT_NEAR(errors.peak.value(), -0.25, 1e-15);
+  EXPECT_FALSE(errors.centroid.has_value());
+}
+
+/// Without waves the table says so, and the figure shows two ways instead of four.
+TEST(StaticCampaign, TheReportSaysWhatWasNotRun) {
+  const reports::Table table = speed_error_table(results());
+  ASSERT_EQ(table.rows.size(), 4u);  // rigid discs and implicit strains at two ratios
+  std::size_t not_run = 0;
+  for (const reports::Cell& c : table.rows.front()) {
+    const auto* text = std::get_if<std::string>(&c.value);
+    not_run += text != nullptr && *text == "not run";
+  }
+  EXPECT_EQ(not_run, 5u);  // peak and centroid of two waves, and the time of a pulse
+  const reports::Figure figure = speed_error_figure(results());
+  ASSERT_EQ(figure.panels.size(), 4u);
+  for (const auto& panel : figure.panels) EXPECT_EQ(std::get<reports::Plot>(panel).series.size(), 2u);
+  const std::string html = reports::render_html(report_of(results(), verdicts_of(results())));
+  EXPECT_NE(html.find("Wave speeds without time steps"), std::string::npos);
+  EXPECT_EQ(html.find("Not drawn"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ddem::harness
