@@ -96,6 +96,12 @@ class StripGauge {
   Section section_{};
 };
 
+/// Told before anything is factorised: grips that meet leave nothing to be solved.
+const Assembly& with_inner_sections(const Assembly& a) {
+  const StripGauge gauge(a.packing);
+  return a;
+}
+
 /// Between periodic edges the discs of both ends can do nothing of their own; between free ones they slide along the grips.
 HeldDofs gripped_ends(const Assembly& a, double edge_band) {
   const Packing& p = a.packing;
@@ -213,7 +219,7 @@ double StripTension::bar_velocity() const { return std::sqrt(axial_stiffness / m
 
 GrippedStrip::GrippedStrip(const Assembly& a, const ContactParameters& contact,
                            const DeformationParameters& deformation, double edge_band)
-    : assembly_(a), edge_band_(edge_band), solver_(a, contact, deformation, gripped_ends(a, edge_band)) {}
+    : assembly_(with_inner_sections(a)), edge_band_(edge_band), solver_(a, contact, deformation, gripped_ends(a, edge_band)) {}
 
 PlaneStiffness GrippedStrip::stiffness() const {
   if (!(assembly_.packing.period.y > 0.0)) throw std::invalid_argument("homogenisation of a strip needs a period in y");

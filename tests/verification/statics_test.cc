@@ -253,5 +253,24 @@ TEST(IsotropicPart, OfAnIsotropicStiffness) {
   EXPECT_LT((rotated(c, 0.4) - c).norm(), 1e-14);
 }
 
+/// Nothing can give way: the bonds take the strain as it is.
+TEST(StaticSolver, WithEverythingHeldIsAffine) {
+  const Assembly a = test::hexagonal_assembly({.columns = 4, .rows = 3, .radius = kRadius}, kThickness);
+  const LatticeCase c{.law = test::kDem, .stiffness_ratio = 0.3, .thickness = kThickness};
+  HeldDofs held;
+  for (auto* h : {&held.x, &held.y, &held.theta}) h->assign(a.size(), 1);
+  const StaticSolver solver(a, c.contact(), c.deformation(), held);
+  const StaticState state = solver.solve({1e-3, -2e-3, 5e-4});
+  EXPECT_EQ(state.fluctuation.norm(), 0.0);
+  const Eigen::VectorXd affine = solver.operators().stiffness.cwiseProduct(affine_overlaps(a, solver.operators(), {1e-3, -2e-3, 5e-4}));
+  EXPECT_EQ(state.bond_forces, affine);
+}
+
+TEST(GrippedStrip, RefusesAStripWithoutInnerSections) {
+  const Assembly a = test::hexagonal_assembly({.columns = 4, .rows = 4, .radius = kRadius, .periodic_y = true}, kThickness);
+  const LatticeCase c{.law = test::kDem, .stiffness_ratio = 0.3, .thickness = kThickness};
+  EXPECT_THROW(GrippedStrip(a, c.contact(), c.deformation(), 1.2 * kRadius), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace ddem
