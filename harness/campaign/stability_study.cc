@@ -36,8 +36,9 @@ constexpr double kDrowned = 1.5;
 constexpr double kEnough = 1e-8;      // residual of the linear prediction, over the signals
 constexpr std::size_t kWindow = 60;   // samples
 constexpr double kSameReading = 1e-3;  // of the growth, far below the 2 % that count
-// Noise holds a share of 1/sqrt(2 discs) of the worst motion, 0.1, and diverges at 1e3: 1e4 = e^9.2.
-constexpr double kNoiseGrowth = 12.0 / kNoiseSteps;
+// Noise of displacements holds a share of 1/sqrt(2 discs) of the worst motion, 0.1, or a hundredth of that where rotations and
+// strains are most of it, and diverges at 1e3: 1e6 = e^13.8.
+constexpr double kNoiseGrowth = 14.0 / kNoiseSteps;
 
 const char* slug(Correction c) { return c == Correction::normal ? "normal" : c == Correction::full ? "full" : "normal-only-stress"; }
 const char* symbol(Correction c) { return c == Correction::normal ? "N" : c == Correction::full ? "F" : "NN"; }
