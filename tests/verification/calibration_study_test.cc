@@ -9,6 +9,8 @@
 
 #include "harness/calibrate/calibrate.h"
 #include "harness/campaign/calibration_study.h"
+#include "harness/campaign/design_study.h"
+#include "harness/run/scene_moduli.h"
 #include "harness/scene/read_scene.h"
 
 namespace ddem::harness {
@@ -146,6 +148,23 @@ TEST(CalibrationStudy, CommandsReproduceTheCases) {
   const Scene lattice = shipped("calibrate_lattice.toml");
   EXPECT_TRUE(lattice.assembly.periodic.x && lattice.assembly.periodic.y && !lattice.deformation);
   EXPECT_TRUE(std::holds_alternative<HexagonalPacking>(lattice.assembly.packing));
+}
+
+/// Moduli scale with k_n and depend on E_p by k_n/E_p alone: the scene's moduli at its own stiffness, over that.
+TEST(DesignStudy, IsThatOfAnyStiffness) {
+  const StripCampaign s;
+  const DesignStudy study = study_design(s);
+  const StripCase c{StripPacking::random, s.seeds.front(), Model::implicit_full, study.stiffness_ratio, Protocol::long_wave, StripWave::p};
+  Scene scene = scene_of(assembly_text(s, c, false), "design");
+  for (const SoftnessCurve& curve : study.curves) {
+    scene.deformation->poisson_ratio = curve.particle_poisson_ratio;
+    for (const std::size_t k : {std::size_t{0}, study.softness.size() - 1}) {
+      scene.deformation->young_modulus = s.normal_stiffness / study.softness[k];
+      const IsotropicModuli m = scene_moduli(scene).isotropic().value();
+      EXPECT_NEAR(curve.random[k].young_over_stiffness * s.normal_stiffness / m.young(), 1.0, 1e-9);
+      EXPECT_NEAR(curve.random[k].poisson_ratio, m.poisson(), 1e-9);
+    }
+  }
 }
 
 }  // namespace

@@ -209,6 +209,20 @@ TEST(CampaignContinuum, DefectsAreFound) {
   }
 }
 
+/// The step is a part of lagged strains alone, and the paper's step is for the paper's waves.
+TEST(Campaign, StepsAreThoseOfProtocolAndModel) {
+  const StripCampaign s;
+  for (const Model model : s.models) {
+    for (const Protocol protocol : {Protocol::paper, Protocol::long_wave}) {
+      const StripCase c{StripPacking::random, 1, model, 0.3, protocol, StripWave::shear};
+      const Time time = scene_of(scene_text(s, c, 1500.0), id_of(c)).time;
+      const bool lagged = model == Model::lagged_normal || model == Model::lagged_full;
+      EXPECT_EQ(time.integrator, lagged ? Integrator::verlet : Integrator::exact) << id_of(c);
+      EXPECT_EQ(std::get<StepFraction>(time.step).of_critical, protocol == Protocol::paper ? 0.2 : 0.4) << id_of(c);
+    }
+  }
+}
+
 /// The polynomial of implicit strains that runs share is the one that each would find by itself, to the last bit.
 TEST(Campaign, SharesWhatEachRunWouldFindItself) {
   const StripCampaign s = reduced();
@@ -218,6 +232,10 @@ TEST(Campaign, SharesWhatEachRunWouldFindItself) {
     SCOPED_TRACE(id_of(w.c));
     RunOptions alone;
     alone.expected_speed = w.static_speed;
+    // The very strip's own step is a little longer: it has held discs, and between free edges fewer bonds.
+    const double own = run_scene(scene_of(w.scene, "its own step"), alone).critical_time_step;
+    EXPECT_LE(w.critical_time_step, own * (1.0 + 1e-9));
+    EXPECT_GT(w.critical_time_step, 0.99 * own);
     alone.critical_time_step = w.critical_time_step;
     const DemRun run = run_scene(scene_of(w.scene, "alone"), alone);
     EXPECT_EQ(run.sample_interval, w.recording.sample_interval);
