@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -43,9 +44,13 @@ extern "C" ssize_t write(int descriptor, const void* data, size_t size) {
   return syscall(SYS_write, descriptor, data, size);
 }
 
-extern "C" int fsync(int) {
-  if (spent(faults.syncs_left)) {
-    errno = EIO;
+extern "C" int fsync(int descriptor) {
+  struct stat status {};
+  const bool directory = ::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode);
+  // Some file systems never flush a directory, which ends no run: only flushes of files are counted, so that
+  // whether a run is hit does not depend on the order of its threads.
+  if (directory ? faults.syncs_left >= 0 : spent(faults.syncs_left)) {
+    errno = directory ? EINVAL : EIO;
     return -1;
   }
   return 0;  // of what is written and what a reader sees, no power is cut here
@@ -176,12 +181,12 @@ TEST_F(Interruptions, FlushesFail) {
   for (int trial = 0; trial < 50; ++trial) {
     const Scratch folder;
     for (const bool resume : {false, true}) {
-      faults.syncs_left = std::uniform_int_distribution<long>(0, 2 * kUnits - 1)(random_);
+      faults.syncs_left = std::uniform_int_distribution<long>(0, kUnits - 1)(random_);
       hits += run_is_hit(folder, resume);
     }
     expect_resumed(folder);
   }
-  EXPECT_GT(hits, 25);
+  EXPECT_GT(hits, 50);
 }
 
 /// The earlier result is there until the new one is whole.
