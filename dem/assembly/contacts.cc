@@ -140,6 +140,13 @@ std::vector<ClosePair> close_pairs(const Packing& packing, double max_gap) {
   return pairs;
 }
 
+/// L / (r_i + r_j): of discs that touch but for round-off, one, so that the bonds of a lattice are all alike.
+double stretch_of(double length, double radii) {
+  constexpr double kRoundOff = 1e-12;
+  const double stretch = length / radii;
+  return std::abs(stretch - 1.0) < kRoundOff ? 1.0 : stretch;
+}
+
 Bonds bonds_of(const Packing& packing, std::span<const ClosePair> pairs) {
   Bonds bonds;
   for (auto* indices : {&bonds.i, &bonds.j}) indices->reserve(pairs.size());
@@ -156,9 +163,10 @@ Bonds bonds_of(const Packing& packing, std::span<const ClosePair> pairs) {
     bonds.nx.push_back(pair.dx / length);
     bonds.ny.push_back(pair.dy / length);
     bonds.length.push_back(length);
-    bonds.stretch.push_back(length / (r_i + r_j));
-    bonds.arm_i.push_back(r_i * length / (r_i + r_j));
-    bonds.arm_j.push_back(r_j * length / (r_i + r_j));
+    const double stretch = stretch_of(length, r_i + r_j);
+    bonds.stretch.push_back(stretch);
+    bonds.arm_i.push_back(r_i * stretch);
+    bonds.arm_j.push_back(r_j * stretch);
   }
   return bonds;
 }

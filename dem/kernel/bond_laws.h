@@ -1,5 +1,5 @@
-// The laws of one bond, for eight discs at once: overlaps by linear or nonlinear kinematics, stiffness the same for all
-// bonds or bond by bond, and what a disc's uniform strain adds. Pointwise; the loop that applies them is in
+// The laws of one bond, for eight discs at once: overlaps by linear or nonlinear kinematics, stiffness and arms the same
+// for all bonds or bond by bond, and what a disc's uniform strain adds. Pointwise; the loop that applies them is in
 // step_kernel.h. Include only from there.
 
 #include "dem/kernel/pack.h"
@@ -19,8 +19,28 @@ struct Vector {
   Pack x, y;
 };
 
+/// k_n and k_t of the row's bonds, and their arms over the radii.
+struct UniformStiffness {
+  DDEM_INLINE static Pack normal(const StepData& d, int) { return all(d.normal_stiffness); }
+  DDEM_INLINE static Pack shear(const StepData& d, int) { return all(d.shear_stiffness); }
+  DDEM_INLINE static Pack stretch(const StepData& d, int k, Pack) { return load(d.stretch + k); }
+};
+struct BondStiffness {
+  DDEM_INLINE static Pack normal(const StepData& d, int k) { return load(d.bond_stiffness + k); }
+  DDEM_INLINE static Pack shear(const StepData& d, int k) { return d.stiffness_ratio * load(d.bond_stiffness + k); }
+  DDEM_INLINE static Pack stretch(const StepData& d, int k, Pack) { return load(d.stretch + k); }
+};
+/// All bonds alike: what fills up a row is known by its normal (sliced_bonds.h).
+struct UniformBonds : UniformStiffness {
+  DDEM_INLINE static Pack stretch(const StepData& d, int, Pack nx) {
+    return nx > 1.5 ? Pack{} : all(d.common_stretch);
+  }
+};
+
+template <class Bond>
 DDEM_INLINE BondState bond_at(const StepData& d, int k) {
-  return {load(d.nx + k), load(d.ny + k), load(d.stretch + k), Pack{}, Pack{}};
+  const Pack nx = load(d.nx + k);
+  return {nx, load(d.ny + k), Bond::stretch(d, k, nx), Pack{}, Pack{}};
 }
 
 /// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; u: displacement of the
@@ -28,9 +48,9 @@ DDEM_INLINE BondState bond_at(const StepData& d, int k) {
 struct LinearKinematics {
   static constexpr bool kLinear = true;
 
-  template <bool kRotation>
+  template <class Bond, bool kRotation>
   DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
-    BondState b = bond_at(d, k);
+    BondState b = bond_at<Bond>(d, k);
     b.u_n = b.nx * u.x + b.ny * u.y;
     // The sum of the two rotations first: symmetric in the two ends, so both ends of a bond get the same bits.
     if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - b.stretch * (roll_own + roll_other);
@@ -43,9 +63,9 @@ struct LinearKinematics {
 struct NonlinearKinematics {
   static constexpr bool kLinear = false;
 
-  template <bool kRotation>
+  template <class Bond, bool kRotation>
   DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
-    BondState b = bond_at(d, k);
+    BondState b = bond_at<Bond>(d, k);
     const Pack l0 = load(d.length + k), x0 = l0 * b.nx, y0 = l0 * b.ny;
     const Pack x = x0 + u.x, y = y0 + u.y, l = square_root(x * x + y * y);
     const Pack elongation = l / l0;
@@ -90,16 +110,6 @@ DDEM_INLINE Dyad dyad(const BondState& b) {
 DDEM_INLINE Pack normal_approach(const BondState& b, const Dyad& n, const Triple& own, const Triple& other) {
   return b.stretch * (n.xx * (own.a + other.a) + n.yy * (own.b + other.b) + n.xy * (own.c + other.c));
 }
-
-/// k_n and k_t of the row's bonds.
-struct UniformStiffness {
-  DDEM_INLINE static Pack normal(const StepData& d, int) { return all(d.normal_stiffness); }
-  DDEM_INLINE static Pack shear(const StepData& d, int) { return all(d.shear_stiffness); }
-};
-struct BondStiffness {
-  DDEM_INLINE static Pack normal(const StepData& d, int k) { return load(d.bond_stiffness + k); }
-  DDEM_INLINE static Pack shear(const StepData& d, int k) { return d.stiffness_ratio * load(d.bond_stiffness + k); }
-};
 
 }  // namespace
 }  // namespace ddem::DDEM_ISA

@@ -66,21 +66,33 @@ template <class Disc>
 DDEM_INLINE Triple transpose(Disc disc) {
   const auto quad = [&disc](int l) DDEM_INLINE_LAMBDA { return *reinterpret_cast<const Quad*>(disc(l)); };
   const Pack p02 = join(quad(0), quad(2)), p13 = join(quad(1), quad(3)), p46 = join(quad(4), quad(6)), p57 = join(quad(5), quad(7));
-  const Pack low = even(p02, p13), high = even(p46, p57);  // a0 a1 c0 c1 a2 a3 c2 c3, and 4 to 7
-  return {first_halves(low, high), first_halves(odd(p02, p13), odd(p46, p57)), second_halves(low, high)};
+  const Pack ac = even(p02, p13), ac4 = even(p46, p57);  // a0 a1 c0 c1 a2 a3 c2 c3, and 4 to 7
+  return {first_halves(ac, ac4), first_halves(odd(p02, p13), odd(p46, p57)), second_halves(ac, ac4)};
 }
 
-/// The transposition back; the fourth double becomes 0.
-DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
-  const auto put = [base, p](int l, int m, Pack pair) DDEM_INLINE_LAMBDA {
-    *reinterpret_cast<Quad*>(base + kQuad * (p + l)) = __builtin_shufflevector(pair, pair, 0, 1, 2, 3);
-    *reinterpret_cast<Quad*>(base + kQuad * (p + m)) = __builtin_shufflevector(pair, pair, 4, 5, 6, 7);
-  };
+/// The transposition back: put(l, m, pair) takes the four doubles of the lanes l and m, the last of which is 0.
+template <class Put>
+DDEM_INLINE void transpose_back(const Triple& t, Put put) {
   const Pack ab_even = even(t.a, t.b), ab_odd = odd(t.a, t.b), c_even = even(t.c, Pack{}), c_odd = odd(t.c, Pack{});
   put(0, 2, __builtin_shufflevector(ab_even, c_even, 0, 1, 8, 9, 2, 3, 10, 11));
   put(4, 6, __builtin_shufflevector(ab_even, c_even, 4, 5, 12, 13, 6, 7, 14, 15));
   put(1, 3, __builtin_shufflevector(ab_odd, c_odd, 0, 1, 8, 9, 2, 3, 10, 11));
   put(5, 7, __builtin_shufflevector(ab_odd, c_odd, 4, 5, 12, 13, 6, 7, 14, 15));
+}
+DDEM_INLINE Quad low(Pack pair) { return __builtin_shufflevector(pair, pair, 0, 1, 2, 3); }
+DDEM_INLINE Quad high(Pack pair) { return __builtin_shufflevector(pair, pair, 4, 5, 6, 7); }
+
+DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
+  transpose_back(t, [base, p](int l, int m, Pack pair) DDEM_INLINE_LAMBDA {
+    *reinterpret_cast<Quad*>(base + kQuad * (p + l)) = low(pair);
+    *reinterpret_cast<Quad*>(base + kQuad * (p + m)) = high(pair);
+  });
+}
+DDEM_INLINE void add_triple(double* base, int p, const Triple& t) {
+  transpose_back(t, [base, p](int l, int m, Pack pair) DDEM_INLINE_LAMBDA {
+    *reinterpret_cast<Quad*>(base + kQuad * (p + l)) += low(pair);
+    *reinterpret_cast<Quad*>(base + kQuad * (p + m)) += high(pair);
+  });
 }
 #else
 template <class Disc>
@@ -96,6 +108,14 @@ DDEM_INLINE void store_triple(double* base, int p, const Triple& t) {
     disc[0] = t.a[l];
     disc[1] = t.b[l];
     disc[2] = t.c[l];
+  }
+}
+DDEM_INLINE void add_triple(double* base, int p, const Triple& t) {
+  for (int l = 0; l < kWidth; ++l) {
+    double* disc = base + kQuad * (p + l);
+    disc[0] += t.a[l];
+    disc[1] += t.b[l];
+    disc[2] += t.c[l];
   }
 }
 #endif

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <optional>
 
 namespace ddem {
 namespace {
@@ -16,17 +18,24 @@ void lay_rows(const std::vector<std::int32_t>& bonds_at, SlicedBonds& s) {
   }
 }
 
+/// The arms over the radii of all bonds, if they are the same.
+std::optional<double> common_stretch(const Bonds& b) {
+  if (b.size() == 0) return std::nullopt;
+  const bool same = std::all_of(b.stretch.begin(), b.stretch.end(), [&](double s) { return s == b.stretch.front(); });
+  return same ? std::optional(b.stretch.front()) : std::nullopt;
+}
+
 /// Every place bonded to itself, without an arm.
-void fill_up(bool stiffness, bool lengths, SlicedBonds& s) {
+void fill_up(bool stiffness, bool lengths, bool stretch, SlicedBonds& s) {
   const std::size_t half_bonds = static_cast<std::size_t>(s.row_begin.back()) * kLanes;
   s.neighbour.resize(half_bonds);
   for (int slice = 0; slice < s.slices; ++slice) {
     for (std::int32_t k = s.row_begin[slice] * kLanes; k < s.row_begin[slice + 1] * kLanes; ++k)
       s.neighbour[k] = slice * kLanes + k % kLanes;
   }
-  s.nx.assign(half_bonds, 1.0);
+  s.nx.assign(half_bonds, stretch ? 1.0 : 2.0);
   s.ny.assign(half_bonds, 0.0);
-  s.stretch.assign(half_bonds, 0.0);
+  if (stretch) s.stretch.assign(half_bonds, 0.0);
   if (lengths) s.length.assign(half_bonds, 1.0);
   if (stiffness) s.stiffness.assign(half_bonds, 0.0);
 }
@@ -40,14 +49,16 @@ SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position,
   std::vector<std::int32_t> bonds_at(static_cast<std::size_t>(s.slices) * kLanes, 0);
   for (std::size_t c = 0; c < b.size(); ++c) ++bonds_at[position[b.i[c]]], ++bonds_at[position[b.j[c]]];
   lay_rows(bonds_at, s);
-  fill_up(!stiffness.empty(), lengths, s);
+  const std::optional<double> common = stiffness.empty() && !lengths ? common_stretch(b) : std::nullopt;
+  s.common_stretch = common.value_or(0.0);
+  fill_up(!stiffness.empty(), lengths, !common, s);
   std::fill(bonds_at.begin(), bonds_at.end(), 0);
   const auto put = [&](std::size_t c, int at, int other, double sign) {
     const std::size_t row = static_cast<std::size_t>(s.row_begin[at / kLanes] + bonds_at[at]++),
                       k = row * kLanes + static_cast<std::size_t>(at % kLanes);
     s.neighbour[k] = other;
     s.nx[k] = sign * b.nx[c], s.ny[k] = sign * b.ny[c];
-    s.stretch[k] = b.stretch[c];
+    if (!common) s.stretch[k] = b.stretch[c];
     if (lengths) s.length[k] = b.length[c];
     if (!stiffness.empty()) s.stiffness[k] = stiffness[c];
   };
@@ -57,6 +68,15 @@ SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position,
     put(c, j, i, -1.0);
   }
   return s;
+}
+
+int SlicedBonds::reach() const {
+  int most = 0;
+  for (int slice = 0; slice < slices; ++slice) {
+    for (std::int32_t k = row_begin[slice] * kLanes; k < row_begin[slice + 1] * kLanes; ++k)
+      most = std::max(most, std::abs(neighbour[k] / kLanes - slice));
+  }
+  return most;
 }
 
 std::vector<int> locality_order(const Packing& p) {

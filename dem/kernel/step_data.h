@@ -10,21 +10,24 @@ namespace ddem {
 /// one to align them.
 constexpr int kQuad = 4;
 
+/// m r^2 / I of a disc: a moment over the radius turns r theta as a force so many times as large moves the centre.
+constexpr double kRotationalKick = 2.0;
+
 struct StepData {
   // Bonds, see SlicedBonds.
   const std::int32_t* row_begin;
   const std::int32_t* neighbour;
   const double *nx, *ny, *stretch, *length;
+  double common_stretch;                       ///< in place of `stretch`, where all bonds have the same
   double normal_stiffness, shear_stiffness;  ///< the same for every bond, or
   const double* bond_stiffness;              ///< k_n of every stored half-bond, and
   double stiffness_ratio;                    ///< k_t / k_n
 
-  // Discs. Displacements and rotations (kQuad a disc) are read at step n and written at step n + 1 in the other buffer;
-  // velocities (n - 1/2 to n + 1/2) are updated in place, since no other disc reads them.
-  const double* motion;
-  double* motion_next;
-  double *vx, *vy, *omega;  ///< omega: r times the angular velocity
-  const double *kick_x, *kick_y, *kick_theta;  ///< dt / mass, dt r^2 / inertia; 0 where held
+  // Discs. Velocities (n - 1/2 to n + 1/2; omega: r times the angular one) change by the kick, displacements and
+  // rotations (kQuad a disc) by the drift, each in place: a disc may drift once all that read it have been kicked.
+  double* motion;
+  double *vx, *vy, *omega;
+  const double *kick_x, *kick_y, *kick_theta;  ///< dt / mass; 0 where held
   double dt;
 
   // Particle strains (kQuad a disc): in and out; D r^2 / V_p, which takes sum s n (x) F to r eps.
@@ -62,6 +65,7 @@ struct StepFeatures {
   StrainCoupling strain = StrainCoupling::none;
   bool implicit = false;
   bool per_bond_stiffness = false;
+  bool common_stretch = false;  ///< linear, and one stiffness for all bonds
   bool watched = false;  ///< note the fastest and the most strained disc
 };
 
@@ -69,13 +73,14 @@ struct StepFeatures {
 using SliceFunction = void (*)(const StepData&, int begin, int end);
 
 struct StepKernels {
-  SliceFunction step = nullptr;      ///< forces, kick and drift; lagged: also the strains of the next evaluation
+  SliceFunction step = nullptr;      ///< forces and kick; lagged: also the strains of the next evaluation
+  SliceFunction drift = nullptr;     ///< displacements, by the velocities
   SliceFunction evaluate = nullptr;  ///< lagged: a further evaluation of the strains, nothing moves
   // Implicit, polynomial.
   SliceFunction source = nullptr;   ///< f from the displacements, and the forces of rigid discs
   SliceFunction iterate = nullptr;  ///< a better approximation from the last; the first is a multiple of f
   SliceFunction last_iterate = nullptr;  ///< the same, noted where watched
-  SliceFunction respond = nullptr;  ///< kick and drift by the forces that the source stage has left, and the strains
+  SliceFunction respond = nullptr;  ///< kick by the forces that the source stage has left, and the strains
   // Implicit, conjugate gradients.
   SliceFunction residual = nullptr;  ///< of the strains at hand; the first direction
   SliceFunction apply = nullptr;     ///< the operator on the direction

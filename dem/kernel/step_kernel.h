@@ -2,7 +2,8 @@
 // no contraction, no reassociation. Include only from step_kernel.cc.
 //
 // Per slice of eight discs: gather the neighbours' motion, form the overlaps of a bond, correct them by the particle
-// strains, apply the law, sum the force, moment and stress of each disc; then kick and drift (leapfrog).
+// strains, apply the law, sum the force, moment and stress of each disc; then kick. The drift of the leapfrog is a sweep of its
+// own over what is still in cache (simulation/stepper.h).
 //
 // Implicit strains solve (V C + S K G) eps = S K C u (theory section 3). With T = (V C)^-1 S K G, whose eigenvalues lie
 // in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of relaxations from zero: a
@@ -15,7 +16,7 @@
 namespace ddem::DDEM_ISA {
 namespace {
 
-template <class Kinematics, class Stiffness, bool kRotation, StrainCoupling kStrain>
+template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain>
 struct StepKernel {
   static constexpr bool kDeformable = kStrain != StrainCoupling::none;
 
@@ -24,14 +25,14 @@ struct StepKernel {
   };
 
   /// The one loop over bonds. For each slice of eight discs, the first of which is p: own = disc_data(p), then
-  /// bond(k, own, sums) for each of its rows, k the row's first half-bond, then disc(p, own, sums).
-  template <class Own, class Bond, class Disc>
-  DDEM_INLINE static void for_slices(const StepData& d, int begin, int end, Own own_data, Bond bond, Disc disc) {
+  /// row_of_bonds(k, own, sums) for each of its rows, k the row's first half-bond, then disc(p, own, sums).
+  template <class Own, class Row, class Disc>
+  DDEM_INLINE static void for_slices(const StepData& d, int begin, int end, Own own_data, Row row_of_bonds, Disc disc) {
     for (int slice = begin; slice < end; ++slice) {
       const int p = slice * kWidth;
       const auto own = own_data(p);
       Sums sum;
-      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) bond(row * kWidth, own, sum);
+      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) row_of_bonds(row * kWidth, own, sum);
       disc(p, own, sum);
     }
   }
@@ -48,7 +49,7 @@ struct StepKernel {
 
   DDEM_INLINE static BondState rigid(const StepData& d, int k, const Triple& own) {
     const Triple other = gather(d.motion, d.neighbour + k);
-    return Kinematics::template overlaps<kRotation>(d, k, {other.a - own.a, other.b - own.b}, own.c, other.c);
+    return Kinematics::template overlaps<Bond, kRotation>(d, k, {other.a - own.a, other.b - own.b}, own.c, other.c);
   }
 
   /// Overlaps with the discs' strains. Where both are corrected and the normal stands still, the approach of the boundaries
@@ -57,10 +58,10 @@ struct StepKernel {
     if constexpr (!kDeformable) {
       return rigid(d, k, own.motion);
     } else if constexpr (Kinematics::kLinear && kRotation && kStrain == StrainCoupling::full) {
-      const Vector v = approach(bond_at(d, k), own.strain, gather(d.strain, d.neighbour + k));
+      const Vector v = approach(bond_at<Bond>(d, k), own.strain, gather(d.strain, d.neighbour + k));
       const Triple other = gather(d.motion, d.neighbour + k);
       const Vector u{(other.a - own.motion.a) - v.x, (other.b - own.motion.b) - v.y};
-      return Kinematics::template overlaps<kRotation>(d, k, u, own.motion.c, other.c);
+      return Kinematics::template overlaps<Bond, kRotation>(d, k, u, own.motion.c, other.c);
     } else {
       BondState b = rigid(d, k, own.motion);
       const Triple other = gather(d.strain, d.neighbour + k);
@@ -78,11 +79,11 @@ struct StepKernel {
   /// Force and moment on the disc, or the stress in it, or both.
   template <bool kForce, bool kStress>
   DDEM_INLINE static void add(const StepData& d, const BondState& b, int k, Sums& sum) {
-    const Pack f_n = Stiffness::normal(d, k) * b.u_n;
+    const Pack f_n = Bond::normal(d, k) * b.u_n;
     Pack fx = f_n * b.nx, fy = f_n * b.ny;
     if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_normal_stress(b, dyad(b), f_n, sum);
     if constexpr (kRotation) {
-      const Pack f_t = Stiffness::shear(d, k) * b.u_t;
+      const Pack f_t = Bond::shear(d, k) * b.u_t;
       fx -= f_t * b.ny;
       fy += f_t * b.nx;
       if constexpr (kForce) sum.moment += b.stretch * f_t;
@@ -143,7 +144,7 @@ struct StepKernel {
   }
 
   template <bool kWatched>
-  DDEM_INLINE static void kick_and_drift(const StepData& d, int p, const Triple& u, const Sums& sum, Watch<kWatched>& watch) {
+  DDEM_INLINE static void kick(const StepData& d, int p, const Sums& sum, Watch<kWatched>& watch) {
     const auto kicked = [p](double* velocity, const double* kick, Pack force) DDEM_INLINE_LAMBDA {
       const Pack v = load(velocity + p) + load(kick + p) * force;
       store(velocity + p, v);
@@ -151,9 +152,16 @@ struct StepKernel {
     };
     const Pack vx = kicked(d.vx, d.kick_x, sum.fx), vy = kicked(d.vy, d.kick_y, sum.fy);
     watch.note_velocity(vx, vy);
-    Triple next{u.a + d.dt * vx, u.b + d.dt * vy, Pack{}};
-    if constexpr (kRotation) next.c = u.c + d.dt * kicked(d.omega, d.kick_theta, sum.moment);
-    store_triple(d.motion_next, p, next);
+    if constexpr (kRotation) kicked(d.omega, d.kick_theta, kRotationalKick * sum.moment);
+  }
+
+  static void drift(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for (int p = begin * kWidth; p < end * kWidth; p += kWidth) {
+      Triple moved{d.dt * load(d.vx + p), d.dt * load(d.vy + p), Pack{}};
+      if constexpr (kRotation) moved.c = d.dt * load(d.omega + p);
+      add_triple(d.motion, p, moved);
+    }
   }
 
   DDEM_INLINE static Triple combine(double wx, const Triple& x, double wy, const Triple& y) {
@@ -175,13 +183,13 @@ struct StepKernel {
   template <bool kForce, bool kStress>
   DDEM_INLINE static auto strained(const StepData& d) {
     return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
-      const BondState b = bond_at(d, k);
+      const BondState b = bond_at<Bond>(d, k);
       const Triple other = gather(d.strain, d.neighbour + k);
-      const Pack k_n = Stiffness::normal(d, k);
+      const Pack k_n = Bond::normal(d, k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
         // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).
         const Vector v = approach(b, own, other);
-        const Pack k_t = Stiffness::shear(d, k), g = (k_n - k_t) * (b.nx * v.x + b.ny * v.y);
+        const Pack k_t = Bond::shear(d, k), g = (k_n - k_t) * (b.nx * v.x + b.ny * v.y);
         const Pack fx = k_t * v.x + g * b.nx, fy = k_t * v.y + g * b.ny;
         if constexpr (kStress) add_stress(b, fx, fy, sum);
         if constexpr (kForce) {
@@ -205,7 +213,7 @@ struct StepKernel {
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return own_state(d, p); }, moved<true, kLagged>(d),
         [&d, &watch](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
-          kick_and_drift(d, p, own.motion, sum, watch);
+          kick(d, p, sum, watch);
           if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, sum), watch);
         });
     watch.tell_speed(d, begin);
@@ -254,7 +262,7 @@ struct StepKernel {
     watch.tell_strain(d, begin);
   }
 
-  /// The motion under the forces of rigid discs, less what the strains take off them.
+  /// The kick by the forces of rigid discs, less what the strains take off them.
   template <bool kWatched>
   static void respond(const StepData& data, int begin, int end) {
     const StepData d = data;
@@ -266,7 +274,7 @@ struct StepKernel {
           sum.fx = load(d.rigid_fx + p) - off.fx;
           sum.fy = load(d.rigid_fy + p) - off.fy;
           if constexpr (kRotation) sum.moment = load(d.rigid_moment + p) - off.moment;
-          kick_and_drift(d, p, load_triple(d.motion, p), sum, watch);
+          kick(d, p, sum, watch);
         });
     watch.tell_speed(d, begin);
   }
@@ -330,6 +338,7 @@ struct StepKernel {
   template <bool kWatched>
   static StepKernels chosen(const StepFeatures& f) {
     StepKernels k;
+    k.drift = &drift;
     if constexpr (kDeformable) {
       if constexpr (Kinematics::kLinear) {
         if (f.implicit) {
@@ -348,32 +357,36 @@ struct StepKernel {
   }
 };
 
-template <class Kinematics, class Stiffness, bool kRotation>
+template <class Kinematics, class Bond, bool kRotation>
 StepKernels choose_strain(const StepFeatures& f) {
   switch (f.strain) {
-    case StrainCoupling::none: return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::none>::kernels(f);
-    case StrainCoupling::normal: return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::normal>::kernels(f);
-    case StrainCoupling::full: return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::full>::kernels(f);
+    case StrainCoupling::none: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::none>::kernels(f);
+    case StrainCoupling::normal: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal>::kernels(f);
+    case StrainCoupling::full: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::full>::kernels(f);
     case StrainCoupling::normal_only_stress:
-      return StepKernel<Kinematics, Stiffness, kRotation, StrainCoupling::normal_only_stress>::kernels(f);
+      return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal_only_stress>::kernels(f);
   }
   return {};
 }
 
-template <class Kinematics, class Stiffness>
+template <class Kinematics, class Bond>
 StepKernels choose_rotation(const StepFeatures& f) {
-  return f.rotation ? choose_strain<Kinematics, Stiffness, true>(f) : choose_strain<Kinematics, Stiffness, false>(f);
+  return f.rotation ? choose_strain<Kinematics, Bond, true>(f) : choose_strain<Kinematics, Bond, false>(f);
 }
 
 template <class Kinematics>
-StepKernels choose_stiffness(const StepFeatures& f) {
-  return f.per_bond_stiffness ? choose_rotation<Kinematics, BondStiffness>(f) : choose_rotation<Kinematics, UniformStiffness>(f);
+StepKernels choose_bonds(const StepFeatures& f) {
+  if (f.per_bond_stiffness) return choose_rotation<Kinematics, BondStiffness>(f);
+  if constexpr (Kinematics::kLinear) {
+    if (f.common_stretch) return choose_rotation<Kinematics, UniformBonds>(f);
+  }
+  return choose_rotation<Kinematics, UniformStiffness>(f);
 }
 
 }  // namespace
 
 StepKernels choose(const StepFeatures& f) {
-  return f.nonlinear ? choose_stiffness<NonlinearKinematics>(f) : choose_stiffness<LinearKinematics>(f);
+  return f.nonlinear ? choose_bonds<NonlinearKinematics>(f) : choose_bonds<LinearKinematics>(f);
 }
 
 }  // namespace ddem::DDEM_ISA

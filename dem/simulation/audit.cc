@@ -95,7 +95,7 @@ double StateAudit::kinetic_energy(const VelocityView& v, const Load* load) const
     sum += 0.5 * assembly_.mass[disc] * (vx * vx + vy * vy);
     if (contact_.has_rotation()) {
       const double r = radius(static_cast<int>(disc));
-      const double omega = (load == nullptr ? v.omega[p] : at(v.omega[p], v.kick_theta[p], load->moment[disc] / r)) / r;
+      const double omega = (load == nullptr ? v.omega[p] : at(v.omega[p], v.kick_theta[p], kRotationalKick * load->moment[disc] / r)) / r;
       sum += 0.5 * assembly_.inertia[disc] * omega * omega;
     }
   }

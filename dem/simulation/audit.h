@@ -31,7 +31,7 @@ struct StrainView {
   double yy(int p, double r) const { return values[kQuad * p + 1] / r; }
   double xy(int p, double r) const { return values[kQuad * p + 2] / r; }
 };
-/// Velocities half a step after the displacements (omega: r times the angular one), and dt/m, dt r^2/I (0 where held).
+/// Velocities half a step after the displacements (omega: r times the angular one), and dt/m (0 where held).
 struct VelocityView {
   const double *vx, *vy, *omega;
   const double *kick_x, *kick_y, *kick_theta;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ddem {
 namespace {
 
-MotionView motion_before(const StepData& d) { return {d.motion_next}; }
-MotionView motion_after(const StepData& d) { return {d.motion}; }
+constexpr long kNever = std::numeric_limits<long>::max();
 
 }  // namespace
 
@@ -18,16 +18,31 @@ SignalRecorder::SignalRecorder(const SimulationInput& input, const Stepper& step
     s->resize(receivers);
     for (auto& values : *s) values.reserve(samples);
   }
+  for (const Receiver& r : input.receivers) {
+    for (const int disc : r.discs) {
+      places_.push_back(stepper.place_of(disc));
+      slots_.push_back(stepper.taps().slot_of(places_.back()));
+    }
+  }
 }
 
-void SignalRecorder::sample() {
-  if (stepper_.step() % input_.sample_every != 0) return;
-  const MotionView u = motion_after(stepper_.data());
-  signals_.time.push_back(static_cast<double>(stepper_.step()) * input_.time_step);
+void SignalRecorder::sample_start() { sample(0, stepper_.data().motion, places_); }
+
+void SignalRecorder::after_sweep() {
+  const int steps = stepper_.steps_taken();
+  if (steps == 1) return sample(stepper_.step(), stepper_.data().motion, places_);
+  for (int level = 0; level < steps; ++level) sample(stepper_.step() - steps + level + 1, stepper_.taps().values(level), slots_);
+}
+
+void SignalRecorder::sample(long step, const double* motion, const std::vector<int>& at) {
+  if (step % input_.sample_every != 0) return;
+  const MotionView u{motion};
+  signals_.time.push_back(static_cast<double>(step) * input_.time_step);
+  auto next = at.begin();
   for (std::size_t r = 0; r < input_.receivers.size(); ++r) {
     double ux = 0.0, uy = 0.0, theta = 0.0;
     for (const int disc : input_.receivers[r].discs) {
-      const int p = stepper_.place_of(disc);
+      const int p = *next++;
       ux += u.ux(p);
       uy += u.uy(p);
       if (input_.contact.has_rotation()) theta += u.theta(p, stepper_.radius(disc));
@@ -52,8 +67,8 @@ void EnergyRecorder::after_step() {
   const bool first_undriven = !reference_ && n >= undriven_;
   if (!active_ || !(first_undriven || n % every_ == 0 || n == last_)) return;
   const Stopwatch watch(seconds_);
-  const StepData& d = stepper_.data();
-  const Energies e = audit_.energies({motion_before(d), motion_after(d), stepper_.velocities(), stepper_.strains_in_use(), stepper_.contacts_in_use()});
+  const AlignedVector<double> before = stepper_.motion_before();
+  const Energies e = audit_.energies({{before.data()}, {stepper_.data().motion}, stepper_.velocities(), stepper_.strains_in_use(), stepper_.contacts_in_use()});
   samples_.push_back({static_cast<double>(n - 1) * time_step_, e});
   if (n < undriven_) return;
   if (!reference_) {
@@ -61,6 +76,13 @@ void EnergyRecorder::after_step() {
   } else if (*reference_ > 0.0) {
     drift_ = std::max(drift_, std::abs(e.invariant / *reference_ - 1.0));
   }
+}
+
+long EnergyRecorder::next_step() const {
+  const long n = stepper_.step();
+  if (!active_) return kNever;
+  const long regular = (n / every_ + 1) * every_, next = std::min(regular, last_);
+  return reference_ || undriven_ <= n ? next : std::min(next, undriven_);
 }
 
 std::optional<double> EnergyRecorder::drift() const {
@@ -75,8 +97,8 @@ void SnapshotRecorder::after_step() {
   const long taken = static_cast<long>(snapshots_.size());
   if (taken >= input_.snapshots || stepper_.step() * input_.snapshots < (taken + 1) * input_.steps) return;
   const Stopwatch watch(seconds_);
-  const StepData& d = stepper_.data();
-  const MotionView u = motion_before(d);
+  const AlignedVector<double> before = stepper_.motion_before();
+  const MotionView u{before.data()};
   const StrainView e = stepper_.strains_in_use();
   Snapshot s;
   s.time = static_cast<double>(stepper_.step() - 1) * input_.time_step;
@@ -87,6 +109,12 @@ void SnapshotRecorder::after_step() {
     s.strain = {component(0), component(1), component(2)};
   }
   snapshots_.push_back(std::move(s));
+}
+
+long SnapshotRecorder::next_step() const {
+  const long taken = static_cast<long>(snapshots_.size());
+  if (taken >= input_.snapshots) return kNever;
+  return ((taken + 1) * input_.steps + input_.snapshots - 1) / input_.snapshots;
 }
 
 }  // namespace ddem

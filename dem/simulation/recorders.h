@@ -1,6 +1,6 @@
 #pragma once
-// What a run keeps: signals of receivers, energies, and now and then all discs. Each looks at the stepper after a step,
-// which then holds u_{n+1} in the current buffers and u_n in the others.
+// What a run keeps: signals of receivers, energies, and now and then all discs. Each looks at the stepper after a sweep,
+// which then holds u_{n+1}.
 
 #include <chrono>
 #include <optional>
@@ -28,12 +28,17 @@ class Stopwatch {
 class SignalRecorder {
  public:
   SignalRecorder(const SimulationInput& input, const Stepper& stepper);
-  void sample();
+  /// The state at the start, and of all steps of the last sweep.
+  void sample_start();
+  void after_sweep();
   Signals take() { return std::move(signals_); }
 
  private:
+  void sample(long step, const double* motion, const std::vector<int>& at);
+
   const SimulationInput& input_;
   const Stepper& stepper_;
+  std::vector<int> places_, slots_;  // of the receivers' discs, one receiver after the other
   Signals signals_;
 };
 
@@ -42,6 +47,8 @@ class EnergyRecorder {
  public:
   EnergyRecorder(const Assembly& assembly, const SimulationInput& input, const Stepper& stepper);
   void after_step();
+  /// The first step after the one at hand that must end a sweep.
+  long next_step() const;
   std::optional<double> drift() const;
   double seconds() const { return seconds_; }
   std::vector<EnergySample> take() { return std::move(samples_); }
@@ -61,6 +68,7 @@ class SnapshotRecorder {
  public:
   SnapshotRecorder(const Assembly& assembly, const SimulationInput& input, const Stepper& stepper);
   void after_step();
+  long next_step() const;
   double seconds() const { return seconds_; }
   std::vector<Snapshot> take() { return std::move(snapshots_); }
 

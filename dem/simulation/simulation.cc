@@ -40,7 +40,8 @@ class Overseer {
   Overseer(const Assembly& a, const SimulationInput& in, Stepper& stepper, SimulationResult& result)
       : in_(in), stepper_(stepper), result_(result), recorder_(in, stepper), energies_(a, in, stepper),
         snapshots_(a, in, stepper), bound_(divergence_bound(in)), report_every_(std::max<long>(kCheckEvery, in.steps / 200)) {
-    recorder_.sample();
+    recorder_.sample_start();
+    stepper_.take_steps(steps_to_take());
   }
 
   bool finish_stage() {
@@ -55,7 +56,7 @@ class Overseer {
         return false;
       }
     }
-    recorder_.sample();
+    recorder_.after_sweep();
     energies_.after_step();
     snapshots_.after_step();
     if (in_.on_progress && n % report_every_ == 0 &&
@@ -63,6 +64,7 @@ class Overseer {
       result_.stopped = true;
       return false;
     }
+    stepper_.take_steps(steps_to_take());
     return n < in_.steps;
   }
 
@@ -79,6 +81,16 @@ class Overseer {
   }
 
  private:
+  /// As many as a sweep may take before somebody wants to look at the discs.
+  int steps_to_take() const {
+    const int most = stepper_.steps_at_once();
+    if (most == 1) return 1;
+    const long n = stepper_.step(), check = (n / kCheckEvery + 1) * kCheckEvery;
+    const long report = in_.on_progress ? (n / report_every_ + 1) * report_every_ : in_.steps;
+    const long next = std::min({check, report, in_.steps, energies_.next_step(), snapshots_.next_step()});
+    return static_cast<int>(std::clamp<long>(next - n, 1, most));
+  }
+
   const SimulationInput& in_;
   Stepper& stepper_;
   SimulationResult& result_;
@@ -104,7 +116,7 @@ void run(Stepper& stepper, Overseer& overseer) {
   Team team(stepper.threads());
   team.run([&](int id) {
     do {
-      stepper.advance(stepper.range_begin(id), stepper.range_begin(id + 1));
+      stepper.advance(id);
       team.meet(id, finish);
     } while (go_on);
   });

@@ -59,6 +59,7 @@ struct SimulationInput {
   int snapshots = 0;        ///< so many over the run, equally spaced, the last at its end
   int threads = 1;
   bool follow_front = true;  ///< no work where nothing can have moved yet; without it the same bits, at more work
+  int steps_a_sweep = 0;     ///< 0: as many as stay in cache; the same bits for any number
   ContactWatch new_contacts = ContactWatch::off;  ///< without friction; see ContactWatch
   /// Called now and then with the fraction done; return false to stop.
   std::function<bool(double)> on_progress;

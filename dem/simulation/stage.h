@@ -7,7 +7,8 @@ enum class Stage {
   evaluate,                          ///< lagged: a further evaluation of the strains
   source, iterate,                   ///< implicit, polynomial
   residual, apply, advance, turn,    ///< implicit, conjugate gradients
-  motion                             ///< forces, velocities, displacements: ends the step
+  motion,                            ///< forces, velocities, displacements: ends the step of one thread
+  drift                              ///< several threads: displacements of what discs of other threads read
 };
 
 }  // namespace ddem

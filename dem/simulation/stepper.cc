@@ -21,6 +21,15 @@ StrainCoupling coupling(const DeformationParameters& d) {
   return StrainCoupling::none;
 }
 
+/// Of the receivers.
+std::vector<int> tapped(const SimulationInput& input, const std::vector<int>& position) {
+  std::vector<int> places;
+  for (const Receiver& r : input.receivers) {
+    for (const int d : r.discs) places.push_back(position[d]);
+  }
+  return places;
+}
+
 bool held(const std::vector<std::uint8_t>& mask, std::size_t disc) { return !mask.empty() && mask[disc]; }
 
 }  // namespace
@@ -34,13 +43,15 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       implicit_(input.deformation.scheme == Scheme::implicit),
       assembly_(a),
       contact_(input.contact),
-      deformation_(input.deformation) {
+      deformation_(input.deformation),
+      taps_(tapped(input, position_)) {
   const bool uniform = input.contact.uniform();
   bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
                        input.contact.kinematics == Kinematics::nonlinear);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
-  range_begin_.resize(static_cast<std::size_t>(std::min(input.threads, std::max(1, bonds_.slices))) + 1);
-  share(bonds_.slices);
+  range_begin_.assign(1, bonds_.slices);
+  share_among(input.threads);
+  reach_ = bonds_.reach();
   size_arrays(input);
   set_parameters(a, input);
   if (deformable_) prepare_strains(a, input);
@@ -49,7 +60,10 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
     watch_.emplace(a, input, position_);
     for (auto* array : {&fastest_, &most_strained_}) array->assign(static_cast<std::size_t>(bonds_.slices), 0.0);
   }
-  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform, watch_.has_value()}, isa);
+  kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform,
+                           bonds_.stretch.empty(), watch_.has_value()},
+                          isa);
+  steps_at_once_ = input.steps_a_sweep > 0 ? input.steps_a_sweep : worthwhile_steps();
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   if (input.follow_front) find_fronts();
@@ -62,7 +76,7 @@ void Stepper::size_arrays(const SimulationInput& input) {
   if (rotation_) {
     for (auto* array : {&omega_, &kick_theta_}) array->assign(padded_, 0.0);
   }
-  for (auto* array : {&motion_, &motion_next_}) array->assign(kQuad * padded_, 0.0);
+  motion_.assign(kQuad * padded_, 0.0);
   if (deformable_) {
     for (auto* array : {&strain_, &strain_next_}) array->assign(kQuad * padded_, 0.0);
   }
@@ -83,16 +97,19 @@ void Stepper::set_parameters(const Assembly& a, const SimulationInput& input) {
     const int p = position_[d];
     kick_x_[p] = held(input.held.x, d) ? 0.0 : dt / a.mass[d];
     kick_y_[p] = held(input.held.y, d) ? 0.0 : dt / a.mass[d];
-    if (rotation_)
-      kick_theta_[p] = held(input.held.theta, d)
-                           ? 0.0
-                           : dt * radius(static_cast<int>(d)) * radius(static_cast<int>(d)) / a.inertia[d];
+    if (rotation_) kick_theta_[p] = held(input.held.theta, d) ? 0.0 : dt / a.mass[d];
   }
   if (drive_) {
     auto& kick = drive_->direction == Direction::x ? kick_x_ : kick_y_;
-    for (const int d : drive_->discs) kick[position_[d]] = 0.0;
+    for (const int d : drive_->discs) {
+      kick[position_[d]] = 0.0;
+      driven_places_.push_back(position_[d]);
+    }
+    std::sort(driven_places_.begin(), driven_places_.end());
   }
-  if (kick_y_ == kick_x_) kick_y_ = AlignedVector<double>();
+  for (auto* kick : {&kick_y_, &kick_theta_}) {
+    if (*kick == kick_x_) *kick = AlignedVector<double>();
+  }
   data_.dt = dt;
   data_.normal_stiffness = input.contact.normal_stiffness;
   data_.shear_stiffness = input.contact.shear_stiffness();
@@ -162,7 +179,8 @@ void Stepper::begin_stage(Stage stage) {
     case Stage::apply: due_ = kernels_.apply; break;
     case Stage::advance: due_ = kernels_.advance; break;
     case Stage::turn: due_ = kernels_.turn; break;
-    case Stage::motion: due_ = move_; break;
+    case Stage::motion:
+    case Stage::drift: break;
   }
   if (range_begin_.back() < bonds_.slices || sweep_ == 0) follow_front();
 }
@@ -185,6 +203,12 @@ void Stepper::follow_front() {
   const bool everywhere = fronts_.empty() || (watch_ && !watch_->closed().empty());
   share(everywhere ? bonds_.slices : fronts_[std::min(sweep_, fronts_.size() - 1)]);
   ++sweep_;
+}
+
+void Stepper::share_among(int threads) {
+  const int front = range_begin_.back();
+  range_begin_.resize(static_cast<std::size_t>(std::min(threads, std::max(1, bonds_.slices))) + 1);
+  share(front);
 }
 
 void Stepper::share(int front) {
@@ -238,7 +262,7 @@ void Stepper::start_leapfrog() {
   AlignedVector<double> vx(padded_, 0.0), vy(padded_, 0.0), omega(omega_.size(), 0.0);
   if (implicit_) {
     for (begin_step(); stage_ != Stage::motion;) {
-      advance(0, bonds_.slices);
+      due_(data_, 0, bonds_.slices);
       finish_strain_stage();
     }
   } else if (watch_) {
@@ -256,23 +280,24 @@ void Stepper::start_leapfrog() {
 }
 
 void Stepper::impose(double time, AlignedVector<double>& motion) const {
-  const int component = drive_->direction == Direction::x ? 0 : 1;
   const double value = drive_->displacement(time);
-  for (const int d : drive_->discs) motion[static_cast<std::size_t>(kQuad * position_[d] + component)] = value;
+  for (const int place : driven_places_) motion[driven_component(place)] = value;
 }
 
 bool Stepper::finish_stage() {
-  if (stage_ != Stage::motion) {
+  if (stage_ == Stage::motion && (threads() > 1 || watch_)) {
+    stage_ = Stage::drift;  // of the same shares
+    return false;
+  }
+  if (stage_ != Stage::motion && stage_ != Stage::drift) {
     finish_strain_stage();
     return false;
   }
   if (watch_) finish_contacts();
-  ++step_number_;
-  if (drive_) impose(static_cast<double>(step_number_) * data_.dt, motion_next_);
-  std::swap(motion_, motion_next_);
+  step_number_ += steps_taken_ = steps_due_;
+  if (drive_ && steps_taken_ == 1) impose(static_cast<double>(step_number_) * data_.dt, motion_);
   // The motion of a lagged step has written the strains to come.
-  if (!implicit_) swap_strains();
-  bind();
+  if (!implicit_ && steps_taken_ % 2 == 1) swap_strains();
   begin_step();
   return true;
 }
@@ -286,12 +311,13 @@ void Stepper::bind() {
   StepData& d = data_;
   d.row_begin = bonds_.row_begin.data(), d.neighbour = bonds_.neighbour.data();
   d.nx = bonds_.nx.data(), d.ny = bonds_.ny.data(), d.stretch = bonds_.stretch.data(), d.length = bonds_.length.data();
+  d.common_stretch = bonds_.common_stretch;
   d.bond_stiffness = bonds_.stiffness.data();
   if (gradients_) gradients_->bind(d);
-  d.motion = motion_.data(), d.motion_next = motion_next_.data();
+  d.motion = motion_.data();
   d.vx = vx_.data(), d.vy = vy_.data(), d.omega = omega_.data();
-  d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data(),
-  d.kick_theta = kick_theta_.data();
+  d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data();
+  d.kick_theta = kick_theta_.empty() ? d.kick_x : kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
   d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();

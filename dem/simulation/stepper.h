@@ -12,6 +12,7 @@
 #include "dem/simulation/new_contacts.h"
 #include "dem/simulation/simulation.h"
 #include "dem/simulation/stage.h"
+#include "dem/simulation/taps.h"
 #include "dem/spectra/strain_polynomial.h"
 
 namespace ddem {
@@ -20,20 +21,25 @@ class Stepper {
  public:
   Stepper(const Assembly& assembly, const SimulationInput& input, InstructionSet isa);
 
-  /// A step is a row of stages: strains to be found first, then the motion. Works on the slices [begin, end) of the
-  /// stage that is due; several threads may do this on disjoint ranges, then one of them calls finish_stage.
-  void advance(int begin, int end) {
-    if (begin < end) due_(data_, begin, end);
-  }
+  /// A step is a row of stages: strains to be found first, then the motion. Does a thread's share of the stage that is
+  /// due; when all threads have, one of them calls finish_stage.
+  void advance(int thread);
   /// Exchanges what the stage wrote; after the last one the driven edge is imposed at t_{n+1}. True when a step is done.
   bool finish_stage();
 
-  int slices() const { return bonds_.slices; }
-  /// Threads that share the slices up to the front of the motion: thread k works on [range_begin(k), range_begin(k + 1)),
-  /// which may change with every stage, and be empty.
+  /// Threads that share the slices up to the front of the motion.
   int threads() const { return static_cast<int>(range_begin_.size()) - 1; }
-  int range_begin(int thread) const { return range_begin_[thread]; }
+  /// Between two steps.
+  void share_among(int threads);
   long step() const { return step_number_; }
+  /// How many steps the next sweep may take, and that it shall take so many.
+  int steps_at_once() const;
+  void take_steps(int count) { steps_due_ = count; }
+  /// The steps of the last sweep, and the discs tapped after each of them but where it was one.
+  int steps_taken() const { return steps_taken_; }
+  const Taps& taps() const { return taps_; }
+  /// Of the arrays that a step works on.
+  std::size_t array_bytes() const;
   int place_of(int disc) const { return position_[disc]; }
   double radius(int disc) const { return assembly_.packing.radius[disc]; }
   const std::vector<int>& order() const { return position_; }
@@ -46,6 +52,8 @@ class Stepper {
   /// The strains that corrected the overlaps of the last step.
   StrainView strains_in_use() const { return {implicit_ ? strain_.data() : strain_next_.data()}; }
   VelocityView velocities() const { return {data_.vx, data_.vy, data_.omega, data_.kick_x, data_.kick_y, data_.kick_theta}; }
+  /// The displacements before the last step, kQuad a disc.
+  AlignedVector<double> motion_before() const;
   /// Set once the strains of a step could not be found; the motion must not go on.
   std::optional<Breakdown> breakdown() const;
   /// Finds a disc whose displacement is not finite or beyond `bound` (m); -1 if there is none.
@@ -75,6 +83,13 @@ class Stepper {
   void follow_front();
   void share(int front);
   void relax();
+  // Kick and drift, stepper_sweeps.cc.
+  void sweep(int end);
+  void pass(int level, int end);
+  void kick_and_drift(int begin, int end);
+  void drift_rest(int begin, int end);
+  int worthwhile_steps() const;
+  std::size_t driven_component(int place) const { return static_cast<std::size_t>(kQuad * place + (drive_->direction == Direction::x ? 0 : 1)); }
   // New contacts, stepper_contacts.cc.
   void look_for_contacts();
   void recall_contacts();
@@ -90,8 +105,10 @@ class Stepper {
   std::size_t discs_ = 0, padded_ = 0;
   bool rotation_ = false, deformable_ = false;
   std::optional<EdgeDrive> drive_;
-  AlignedVector<double> motion_, motion_next_, strain_, strain_next_, source_;  // kQuad a disc
-  AlignedVector<double> vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_;  // kick_y_ empty where it would be kick_x_
+  std::vector<int> driven_places_;
+  AlignedVector<double> motion_, strain_, strain_next_, source_;  // kQuad a disc
+  AlignedVector<double> vx_, vy_, omega_;
+  AlignedVector<double> kick_x_, kick_y_, kick_theta_;  // the others empty where they would be kick_x_
   AlignedVector<double> rigid_fx_, rigid_fy_, rigid_moment_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
   StepData data_{};
@@ -110,6 +127,10 @@ class Stepper {
   std::vector<int> range_begin_;  // first slice of each thread, and the end
   std::vector<int> fronts_;       // by sweep (front.h)
   std::size_t sweep_ = 0;
+  int reach_ = 0;  // slices
+  int steps_at_once_ = 1, steps_due_ = 1, steps_taken_ = 1;
+  Taps taps_;
+  std::vector<std::size_t> driven_;  // driven discs that a sweep has passed, by step
   AlignedVector<double> fastest_, most_strained_;
   double largest_strain_ = 0.0;
   std::vector<NewContact> in_use_, assumed_;

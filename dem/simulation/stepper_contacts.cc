@@ -122,7 +122,7 @@ void Stepper::finish_contacts() {
   if (deformable_ && !implicit_) add_contact_strains();
   double fastest = largest_of(fastest_);
   const auto push = [&](int p, double fx, double fy) {
-    double* u = motion_next_.data() + static_cast<std::ptrdiff_t>(kQuad) * p;
+    double* u = motion_.data() + static_cast<std::ptrdiff_t>(kQuad) * p;
     vx_[p] += data_.kick_x[p] * fx, vy_[p] += data_.kick_y[p] * fy;
     u[0] += data_.dt * (data_.kick_x[p] * fx), u[1] += data_.dt * (data_.kick_y[p] * fy);
     fastest = std::max(fastest, vx_[p] * vx_[p] + vy_[p] * vy_[p]);

@@ -43,12 +43,17 @@ std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly
 
 double seconds_of(Stepper& stepper, long steps, Team& team) {
   long left = steps;
+  const auto take_steps = [&] { stepper.take_steps(static_cast<int>(std::clamp<long>(left, 1, stepper.steps_at_once()))); };
+  stepper.share_among(team.size());
+  take_steps();
   const auto start = std::chrono::steady_clock::now();
   team.run([&](int thread) {
-    const auto [begin, end] = team.part(static_cast<std::size_t>(stepper.slices()), thread);
     while (left > 0) {
-      stepper.advance(static_cast<int>(begin), static_cast<int>(end));
-      team.meet(thread, [&] { left -= stepper.finish_stage() ? 1 : 0; });
+      stepper.advance(thread);
+      team.meet(thread, [&] {
+        left -= stepper.finish_stage() ? stepper.steps_taken() : 0;
+        take_steps();
+      });
     }
   });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -79,7 +84,7 @@ double median(std::vector<double> values) {
 std::vector<KernelPlan> kernel_plans() {
   std::vector<int> threads{1};
   if (std::thread::hardware_concurrency() > 1) threads.push_back(2);
-  return {{682, 1500, 15, true, true, threads}, {100000, 12, 5, true, false, threads}, {1000000, 4, 3, false, false, threads}};
+  return {{682, 1500, 15, true, true, threads}, {100000, 16, 5, true, false, threads}, {1000000, 16, 3, false, false, threads}};
 }
 
 std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const std::function<void()>& progress) {

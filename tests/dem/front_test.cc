@@ -1,4 +1,5 @@
-// No work where nothing can have moved yet: the same bits, and the front where the bonds carry it.
+// No work where nothing can have moved yet, and several steps in one sweep: the same bits, and the front where the bonds
+// carry it.
 
 #include "dem/simulation/front.h"
 
@@ -10,6 +11,7 @@
 #include <numeric>
 
 #include "dem/simulation/simulation.h"
+#include "dem/simulation/stepper.h"
 #include "dem/spectra/spectra.h"
 #include "tests/support/assemblies.h"
 
@@ -129,6 +131,62 @@ TEST_P(Front, KeepsTheBits) {
       expect_same_bits(everywhere, simulate(a, in));
     }
   }
+}
+
+/// Where a sweep may take several steps: one stage a step, one thread; elsewhere it takes one.
+TEST_P(Front, SeveralStepsASweepKeepTheBits) {
+  for (const Assembly& a : {test::random_free_strip(), test::hexagonal_assembly({.columns = 40, .rows = 9, .radius = 1e-4})}) {
+    SimulationInput in = input(a);
+    in.steps = 150;
+    in.follow_front = false;
+    for (const int sample_every : {1, 3}) {
+      in.sample_every = sample_every;
+      in.steps_a_sweep = 1;
+      const SimulationResult single = simulate(a, in);
+      for (const int steps : {2, 3, 7, 16}) {
+        in.steps_a_sweep = steps;
+        SCOPED_TRACE(steps);
+        expect_same_bits(single, simulate(a, in));
+      }
+      // Begun while the front is under way, where sweeps take one step.
+      SimulationInput following = in;
+      following.follow_front = true;
+      expect_same_bits(single, simulate(a, following));
+    }
+  }
+}
+
+/// With the period along the strip the first discs read the last: nothing drifts before all have been kicked.
+TEST(Sweeps, RoundAPeriod) {
+  const Assembly a = test::hexagonal_assembly({.columns = 40, .rows = 8, .radius = 1e-4, .periodic_x = true, .periodic_y = true});
+  SimulationInput in;
+  in.contact = {kNormalStiffness, 0.25, Kinematics::linear};
+  in.time_step = 0.9 * 2.0 / largest_frequency(a, in.contact, {});
+  in.steps = 100;
+  in.initial.ux = test::Noise(3).vector(a.size(), 1e-9);
+  in.receivers = {{{0}}, {{150}}};
+  in.steps_a_sweep = 1;
+  const SimulationResult single = simulate(a, in);
+  in.steps_a_sweep = 5;
+  expect_same_bits(single, simulate(a, in));
+  in.threads = 3;
+  expect_same_bits(single, simulate(a, in));
+}
+
+/// Bytes a disc of what a step works on, where a disc has three bonds: one index and two components of a normal a half-bond,
+/// three displacements and one to align them, three velocities, one kick, one place; arms and stiffnesses of bonds that
+/// differ.
+TEST(Sweeps, ArraysAreSmall) {
+  const Assembly a = test::hexagonal_assembly({.columns = 300, .rows = 60, .radius = 1e-4});
+  SimulationInput in;
+  in.contact = {kNormalStiffness, 0.25, Kinematics::linear};
+  in.time_step = 1e-9;
+  const auto bytes_a_disc = [&] {
+    return static_cast<double>(Stepper(a, in, best_instruction_set()).array_bytes()) / static_cast<double>(a.size());
+  };
+  EXPECT_LE(bytes_a_disc(), 200.0);
+  in.contact.contact_modulus = kNormalStiffness;
+  EXPECT_LE(bytes_a_disc(), 330.0);
 }
 
 /// Two rows of twenty discs that no bond joins: the motion gets across when the gap closes.
