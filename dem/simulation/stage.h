@@ -8,7 +8,7 @@ enum class Stage {
   source, iterate,                   ///< implicit, polynomial
   residual, apply, advance, turn,    ///< implicit, conjugate gradients
   motion,                            ///< forces, velocities, displacements: ends the step of one thread
-  drift                              ///< several threads: displacements of what discs of other threads read
+  seams                              ///< what the shares of several threads have left of that to each other
 };
 
 }  // namespace ddem

@@ -49,8 +49,8 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
                        input.contact.kinematics == Kinematics::nonlinear);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
-  range_begin_.assign(1, bonds_.slices);
-  share_among(input.threads);
+  range_begin_.resize(static_cast<std::size_t>(std::min(input.threads, std::max(1, bonds_.slices))) + 1);
+  share(bonds_.slices);
   reach_ = bonds_.reach();
   size_arrays(input);
   set_parameters(a, input);
@@ -63,7 +63,8 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform,
                            bonds_.stretch.empty(), watch_.has_value()},
                           isa);
-  steps_at_once_ = input.steps_a_sweep > 0 ? input.steps_a_sweep : worthwhile_steps();
+  automatic_steps_ = input.steps_a_sweep == 0;
+  steps_at_once_ = automatic_steps_ ? worthwhile_steps() : input.steps_a_sweep;
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   if (input.follow_front) find_fronts();
@@ -180,7 +181,7 @@ void Stepper::begin_stage(Stage stage) {
     case Stage::advance: due_ = kernels_.advance; break;
     case Stage::turn: due_ = kernels_.turn; break;
     case Stage::motion:
-    case Stage::drift: break;
+    case Stage::seams: break;
   }
   if (range_begin_.back() < bonds_.slices || sweep_ == 0) follow_front();
 }
@@ -209,6 +210,12 @@ void Stepper::share_among(int threads) {
   const int front = range_begin_.back();
   range_begin_.resize(static_cast<std::size_t>(std::min(threads, std::max(1, bonds_.slices))) + 1);
   share(front);
+  if (automatic_steps_) steps_at_once_ = worthwhile_steps();
+}
+
+void Stepper::take_steps(int count) {
+  steps_due_ = count;
+  if (count > 1) taps_.begin(count);
 }
 
 void Stepper::share(int front) {
@@ -286,10 +293,10 @@ void Stepper::impose(double time, AlignedVector<double>& motion) const {
 
 bool Stepper::finish_stage() {
   if (stage_ == Stage::motion && (threads() > 1 || watch_)) {
-    stage_ = Stage::drift;  // of the same shares
+    stage_ = Stage::seams;  // of the same shares
     return false;
   }
-  if (stage_ != Stage::motion && stage_ != Stage::drift) {
+  if (stage_ != Stage::motion && stage_ != Stage::seams) {
     finish_strain_stage();
     return false;
   }

@@ -34,7 +34,7 @@ class Stepper {
   long step() const { return step_number_; }
   /// How many steps the next sweep may take, and that it shall take so many.
   int steps_at_once() const;
-  void take_steps(int count) { steps_due_ = count; }
+  void take_steps(int count);
   /// The steps of the last sweep, and the discs tapped after each of them but where it was one.
   int steps_taken() const { return steps_taken_; }
   const Taps& taps() const { return taps_; }
@@ -84,11 +84,12 @@ class Stepper {
   void share(int front);
   void relax();
   // Kick and drift, stepper_sweeps.cc.
-  void sweep(int end);
-  void pass(int level, int end);
-  void kick_and_drift(int begin, int end);
-  void drift_rest(int begin, int end);
   int worthwhile_steps() const;
+  bool drifts_with_kick() const;
+  StepData data_of(int level);
+  void sweep(int begin, int end, bool seam_before, bool seam_after);
+  void close_seam(int slice);
+  void drift(int level, int begin, int end);
   std::size_t driven_component(int place) const { return static_cast<std::size_t>(kQuad * place + (drive_->direction == Direction::x ? 0 : 1)); }
   // New contacts, stepper_contacts.cc.
   void look_for_contacts();
@@ -128,9 +129,9 @@ class Stepper {
   std::vector<int> fronts_;       // by sweep (front.h)
   std::size_t sweep_ = 0;
   int reach_ = 0;  // slices
+  bool automatic_steps_ = true;
   int steps_at_once_ = 1, steps_due_ = 1, steps_taken_ = 1;
   Taps taps_;
-  std::vector<std::size_t> driven_;  // driven discs that a sweep has passed, by step
   AlignedVector<double> fastest_, most_strained_;
   double largest_strain_ = 0.0;
   std::vector<NewContact> in_use_, assumed_;

@@ -1,9 +1,11 @@
 // Kick and drift in one sweep. A disc may drift once every disc that reads it has been kicked, and no neighbour is farther
 // than `reach` slices: the drift follows the kick at that distance, over what is still in cache. The next step may follow
 // the drift at the same distance again, so that one sweep over the memory takes several steps, the same operations on the
-// same numbers in another order.
+// same numbers in another order. Where the shares of two threads meet, each leaves out what the other can have reached by
+// then, two reaches more with every step; when all have come to their ends, these seams are closed.
 
 #include <algorithm>
+#include <array>
 
 #include "dem/simulation/stepper.h"
 
@@ -26,77 +28,88 @@ std::size_t Stepper::array_bytes() const {
 }
 
 int Stepper::worthwhile_steps() const {
-  const std::size_t all = array_bytes();
-  if (all < kOwnCache) return 1;
-  const std::size_t behind = 2 * static_cast<std::size_t>(reach_) * all / static_cast<std::size_t>(bonds_.slices);  // bytes a step
-  return static_cast<int>(std::clamp<std::size_t>(kSharedCache / std::max<std::size_t>(behind, 1), 1, kMostSteps));
+  const std::size_t all = array_bytes(), slices = static_cast<std::size_t>(bonds_.slices), reach = static_cast<std::size_t>(reach_);
+  if (all < kOwnCache || reach == 0) return 1;
+  const std::size_t bytes_a_step = 2 * reach * all / slices * static_cast<std::size_t>(threads());
+  return static_cast<int>(std::clamp<std::size_t>(kSharedCache / bytes_a_step, 1, kMostSteps));
 }
 
 int Stepper::steps_at_once() const {
-  const bool one_stage = strain_stages_ == 0 && !gradients_, everywhere = range_begin_.back() == bonds_.slices;
-  return threads() == 1 && one_stage && !watch_ && everywhere ? steps_at_once_ : 1;
+  if (strain_stages_ > 0 || gradients_ || watch_ || range_begin_.back() < bonds_.slices) return 1;
+  if (threads() == 1 || reach_ == 0) return steps_at_once_;
+  // Two seams at the ends of a share do not meet: 2 (2 n - 1) reach <= share.
+  return std::clamp((bonds_.slices / threads() / reach_ + 2) / 4, 1, steps_at_once_);
+}
+
+bool Stepper::drifts_with_kick() const {
+  return !watch_ && (threads() == 1 || 2 * reach_ <= range_begin_.back() / threads());
 }
 
 void Stepper::advance(int thread) {
   const int begin = range_begin_[thread], end = range_begin_[thread + 1];
   if (begin >= end) return;
-  switch (stage_) {
-    case Stage::motion: return threads() == 1 && !watch_ ? sweep(end) : kick_and_drift(begin, end);
-    case Stage::drift: return drift_rest(begin, end);
-    default: due_(data_, begin, end);
+  if (stage_ == Stage::seams) {
+    if (!drifts_with_kick()) return kernels_.drift(data_, begin, end);
+    if (thread + 1 < threads()) close_seam(end);
+  } else if (stage_ != Stage::motion) {
+    due_(data_, begin, end);
+  } else if (drifts_with_kick()) {
+    sweep(begin, end, thread > 0, thread + 1 < threads());
+  } else {
+    move_(data_, begin, end);
   }
 }
 
-/// The slices before `end`, for as many steps as are due.
-void Stepper::sweep(int end) {
-  if (steps_due_ > 1) {
-    taps_.begin(steps_due_);
-    driven_.assign(static_cast<std::size_t>(steps_due_), 0);
-  }
-  StepData even = data_, odd = data_;
-  odd.strain = data_.strain_next, odd.strain_next = strain_.data();
+/// For step `level` of a sweep.
+StepData Stepper::data_of(int level) {
+  StepData d = data_;
+  if (level % 2 == 1) d.strain = strain_next_.data(), d.strain_next = strain_.data();
+  return d;
+}
+
+/// The slices [begin, end), as many steps as are due. A disc of theirs that discs of another share can have reached by then is
+/// left to the seam.
+void Stepper::sweep(int begin, int end, bool seam_before, bool seam_after) {
+  struct Range {
+    int begin, end;
+  };
+  const auto inside = [&](int reaches, int from, int to) {
+    const Range all{seam_before ? begin + reaches * reach_ : begin, seam_after ? end - reaches * reach_ : end};
+    return Range{std::max(from, all.begin), std::min(to, all.end)};
+  };
+  const std::array<StepData, 2> data{data_of(0), data_of(1)};
   const int last = 2 * steps_due_ - 1;  // the last drift follows the first kick at so many reaches
-  const auto clipped = [end](int slice) { return std::clamp(slice, 0, end); };
-  for (int front = kBlock; front - kBlock < end + last * reach_; front += kBlock) {
+  for (int front = begin + kBlock; front - kBlock < end + last * reach_; front += kBlock) {
     for (int level = 0; level < steps_due_; ++level) {
-      const StepData& d = level % 2 == 0 ? even : odd;
-      const int kicked = front - 2 * level * reach_, drifted = kicked - reach_;
-      if (kicked <= 0) break;
-      if (kicked - kBlock < end) move_(d, clipped(kicked - kBlock), clipped(kicked));
-      if (drifted <= 0 || drifted - kBlock >= end) continue;
-      kernels_.drift(d, clipped(drifted - kBlock), clipped(drifted));
-      if (steps_due_ > 1) pass(level, clipped(drifted) * kLanes);
+      const int at = front - 2 * level * reach_;
+      if (at <= begin) break;
+      const Range kicked = inside(2 * level, at - kBlock, at), drifted = inside(2 * level + 1, at - reach_ - kBlock, at - reach_);
+      if (kicked.begin < kicked.end) move_(data[level % 2], kicked.begin, kicked.end);
+      if (drifted.begin < drifted.end) drift(level, drifted.begin, drifted.end);
     }
   }
 }
 
-/// What happens to discs below the place `end` after step `level` of a sweep.
-void Stepper::pass(int level, int end) {
+/// What the sweeps on both sides of a slice have left, which grows with every step.
+void Stepper::close_seam(int slice) {
+  for (int level = 0; level < steps_due_; ++level) {
+    const int kicked = 2 * level * reach_, drifted = kicked + reach_;
+    if (level > 0) move_(data_of(level), slice - kicked, slice + kicked);
+    drift(level, slice - drifted, slice + drifted);
+  }
+}
+
+/// After step `level` of a sweep; of one that takes several, what would happen between them.
+void Stepper::drift(int level, int begin, int end) {
+  kernels_.drift(data_, begin, end);
+  if (steps_due_ == 1) return;
+  const int first = begin * kLanes, last = end * kLanes;
   if (drive_) {
     const double value = drive_->displacement(static_cast<double>(step_number_ + level + 1) * data_.dt);
-    std::size_t& k = driven_[level];
-    for (; k < driven_places_.size() && driven_places_[k] < end; ++k) motion_[driven_component(driven_places_[k])] = value;
+    const auto from = std::lower_bound(driven_places_.begin(), driven_places_.end(), first);
+    for (auto place = from; place != driven_places_.end() && *place < last; ++place) motion_[driven_component(*place)] = value;
   }
-  taps_.keep(motion_.data(), level, end);
-}
-
-/// A thread's share. What discs of other shares read drifts later.
-void Stepper::kick_and_drift(int begin, int end) {
-  const int block = watch_ ? end - begin : kBlock;  // who watches looks at the first slice of a share
-  int drifted = begin + reach_;
-  for (int from = begin; from < end; from += block) {
-    const int to = std::min(from + block, end), ready = to - reach_;
-    move_(data_, from, to);
-    if (ready <= drifted) continue;
-    kernels_.drift(data_, drifted, ready);
-    drifted = ready;
-  }
-}
-
-void Stepper::drift_rest(int begin, int end) {
-  const int lower = std::min(begin + reach_, end), upper = std::max(lower, end - reach_);
-  if (begin < lower) kernels_.drift(data_, begin, lower);
-  if (upper < end) kernels_.drift(data_, upper, end);
+  taps_.keep(motion_.data(), level, first, last);
 }
 
 AlignedVector<double> Stepper::motion_before() const {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "dem/kernel/step_data.h"
-
 namespace ddem {
 
 Taps::Taps(std::vector<int> places) : places_(std::move(places)) {
@@ -17,16 +15,15 @@ int Taps::slot_of(int place) const {
 }
 
 void Taps::begin(int steps) {
-  kept_.assign(static_cast<std::size_t>(steps), 0);
-  values_.resize(kept_.size() * places_.size() * kQuad);
+  values_.resize(static_cast<std::size_t>(steps) * places_.size() * kQuad);
 }
 
-void Taps::keep(const double* motion, int level, int end) {
-  std::size_t& k = kept_[level];
-  double* values = values_.data() + static_cast<std::size_t>(level) * places_.size() * kQuad;
-  for (; k < places_.size() && places_[k] < end; ++k) std::copy_n(motion + static_cast<std::size_t>(kQuad) * places_[k], kQuad, values + kQuad * k);
+void Taps::keep(const double* motion, int level, int begin, int end) {
+  const auto first = std::lower_bound(places_.begin(), places_.end(), begin);
+  double* values = values_.data() + begin_of(level) + kQuad * (first - places_.begin());
+  for (auto place = first; place != places_.end() && *place < end; ++place, values += kQuad) {
+    std::copy_n(motion + static_cast<std::ptrdiff_t>(kQuad) * *place, kQuad, values);
+  }
 }
-
-const double* Taps::values(int level) const { return values_.data() + static_cast<std::size_t>(level) * places_.size() * kQuad; }
 
 }  // namespace ddem

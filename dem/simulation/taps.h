@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dem/kernel/aligned.h"
+#include "dem/kernel/step_data.h"
 
 namespace ddem {
 
@@ -16,16 +17,17 @@ class Taps {
   int slot_of(int place) const;
   /// Before a sweep of so many steps.
   void begin(int steps);
-  /// Keeps what `motion` (kQuad doubles a disc) holds after step `level` of the sweep, of the places below `end` that were not
-  /// kept before.
-  void keep(const double* motion, int level, int end);
+  /// Keeps what `motion` (kQuad doubles a disc) holds after step `level` of the sweep at the places [begin, end). Several
+  /// threads may do this with disjoint ranges.
+  void keep(const double* motion, int level, int begin, int end);
   /// After step `level` of the last sweep: kQuad doubles a slot.
-  const double* values(int level) const;
+  const double* values(int level) const { return values_.data() + begin_of(level); }
 
  private:
+  std::size_t begin_of(int level) const { return static_cast<std::size_t>(level) * places_.size() * kQuad; }
+
   std::vector<int> places_;
-  std::vector<std::size_t> kept_;  // by level
-  AlignedVector<double> values_;   // level by level
+  AlignedVector<double> values_;  // level by level
 };
 
 }  // namespace ddem

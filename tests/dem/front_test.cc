@@ -141,11 +141,11 @@ TEST_P(Front, SeveralStepsASweepKeepTheBits) {
     in.follow_front = false;
     for (const int sample_every : {1, 3}) {
       in.sample_every = sample_every;
-      in.steps_a_sweep = 1;
+      in.threads = in.steps_a_sweep = 1;
       const SimulationResult single = simulate(a, in);
-      for (const int steps : {2, 3, 7, 16}) {
-        in.steps_a_sweep = steps;
-        SCOPED_TRACE(steps);
+      for (const auto& [threads, steps] : {std::pair(1, 2), {1, 3}, {1, 7}, {1, 16}, {2, 2}, {2, 3}, {2, 16}, {3, 2}}) {
+        in.threads = threads, in.steps_a_sweep = steps;
+        SCOPED_TRACE(testing::Message() << threads << " threads, steps a sweep " << steps);
         expect_same_bits(single, simulate(a, in));
       }
       // Begun while the front is under way, where sweeps take one step.
