@@ -9,38 +9,50 @@ namespace ddem::DDEM_ISA {
 namespace {
 
 /// Overlaps of a row of bonds, their current normals, and their arms over the radii.
+template <class Stretch>
 struct BondState {
-  Pack nx, ny, stretch;
+  Pack nx, ny;
+  Stretch stretch;
   Pack u_n, u_t;
 };
+
+/// The arms of discs that touch: products with it cost nothing.
+struct One {};
+DDEM_INLINE Pack operator*(One, Pack x) { return x; }
 
 /// A vector of the plane.
 struct Vector {
   Pack x, y;
 };
 
-/// k_n and k_t of the row's bonds, and their arms over the radii.
-struct UniformStiffness {
+/// Bonds with arms of their own, which are zero where a row is filled up.
+struct StretchedBonds {
+  using State = BondState<Pack>;
+  DDEM_INLINE static Pack stretch(const StepData& d, int k) { return load(d.stretch + k); }
+  /// By how much the two discs roll apart.
+  DDEM_INLINE static Pack roll(const State& b, Pack rotations) { return b.stretch * rotations; }
+};
+/// Between discs that touch. What fills up a row has no normal, and so gives no force; nor must it roll.
+struct TouchingBonds {
+  using State = BondState<One>;
+  DDEM_INLINE static One stretch(const StepData&, int) { return {}; }
+  DDEM_INLINE static Pack roll(const State& b, Pack rotations) { return (b.nx == 0.0) & (b.ny == 0.0) ? Pack{} : rotations; }
+};
+
+/// k_n and k_t of the row's bonds.
+template <class Bonds>
+struct UniformStiffness : Bonds {
   DDEM_INLINE static Pack normal(const StepData& d, int) { return all(d.normal_stiffness); }
   DDEM_INLINE static Pack shear(const StepData& d, int) { return all(d.shear_stiffness); }
-  DDEM_INLINE static Pack stretch(const StepData& d, int k, Pack) { return load(d.stretch + k); }
 };
-struct BondStiffness {
+struct BondStiffness : StretchedBonds {
   DDEM_INLINE static Pack normal(const StepData& d, int k) { return load(d.bond_stiffness + k); }
   DDEM_INLINE static Pack shear(const StepData& d, int k) { return d.stiffness_ratio * load(d.bond_stiffness + k); }
-  DDEM_INLINE static Pack stretch(const StepData& d, int k, Pack) { return load(d.stretch + k); }
-};
-/// All bonds alike: what fills up a row is known by its normal (sliced_bonds.h).
-struct UniformBonds : UniformStiffness {
-  DDEM_INLINE static Pack stretch(const StepData& d, int, Pack nx) {
-    return nx > 1.5 ? Pack{} : all(d.common_stretch);
-  }
 };
 
 template <class Bond>
-DDEM_INLINE BondState bond_at(const StepData& d, int k) {
-  const Pack nx = load(d.nx + k);
-  return {nx, load(d.ny + k), Bond::stretch(d, k, nx), Pack{}, Pack{}};
+DDEM_INLINE typename Bond::State bond_at(const StepData& d, int k) {
+  return {load(d.nx + k), load(d.ny + k), Bond::stretch(d, k), Pack{}, Pack{}};
 }
 
 /// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; u: displacement of the
@@ -49,11 +61,11 @@ struct LinearKinematics {
   static constexpr bool kLinear = true;
 
   template <class Bond, bool kRotation>
-  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
-    BondState b = bond_at<Bond>(d, k);
+  DDEM_INLINE static typename Bond::State overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
+    auto b = bond_at<Bond>(d, k);
     b.u_n = b.nx * u.x + b.ny * u.y;
     // The sum of the two rotations first: symmetric in the two ends, so both ends of a bond get the same bits.
-    if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - b.stretch * (roll_own + roll_other);
+    if constexpr (kRotation) b.u_t = (b.nx * u.y - b.ny * u.x) - Bond::roll(b, roll_own + roll_other);
     return b;
   }
 };
@@ -64,8 +76,8 @@ struct NonlinearKinematics {
   static constexpr bool kLinear = false;
 
   template <class Bond, bool kRotation>
-  DDEM_INLINE static BondState overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
-    BondState b = bond_at<Bond>(d, k);
+  DDEM_INLINE static typename Bond::State overlaps(const StepData& d, int k, const Vector& u, Pack roll_own, Pack roll_other) {
+    auto b = bond_at<Bond>(d, k);
     const Pack l0 = load(d.length + k), x0 = l0 * b.nx, y0 = l0 * b.ny;
     const Pack x = x0 + u.x, y = y0 + u.y, l = square_root(x * x + y * y);
     const Pack elongation = l / l0;
@@ -92,7 +104,8 @@ struct NonlinearKinematics {
 
 /// How far the boundaries of the two discs move towards each other at the contact: (a_i eps_i + a_j eps_j).n, whose normal
 /// and tangential parts a n.eps.n and a t.eps.n are taken from the overlaps. The same bits from either end.
-DDEM_INLINE Vector approach(const BondState& b, const Triple& own, const Triple& other) {
+template <class Stretch>
+DDEM_INLINE Vector approach(const BondState<Stretch>& b, const Triple& own, const Triple& other) {
   const Pack xx = own.a + other.a, yy = own.b + other.b, xy = own.c + other.c;
   return {b.stretch * (xx * b.nx + xy * b.ny), b.stretch * (xy * b.nx + yy * b.ny)};
 }
@@ -101,13 +114,15 @@ DDEM_INLINE Vector approach(const BondState& b, const Triple& own, const Triple&
 struct Dyad {
   Pack xx, yy, xy;
 };
-DDEM_INLINE Dyad dyad(const BondState& b) {
+template <class Stretch>
+DDEM_INLINE Dyad dyad(const BondState<Stretch>& b) {
   const Pack xy = b.nx * b.ny;
   return {b.nx * b.nx, b.ny * b.ny, xy + xy};
 }
 
 /// The normal part of that.
-DDEM_INLINE Pack normal_approach(const BondState& b, const Dyad& n, const Triple& own, const Triple& other) {
+template <class Stretch>
+DDEM_INLINE Pack normal_approach(const BondState<Stretch>& b, const Dyad& n, const Triple& own, const Triple& other) {
   return b.stretch * (n.xx * (own.a + other.a) + n.yy * (own.b + other.b) + n.xy * (own.c + other.c));
 }
 

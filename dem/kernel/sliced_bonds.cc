@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
-#include <optional>
 
 namespace ddem {
 namespace {
@@ -18,11 +17,8 @@ void lay_rows(const std::vector<std::int32_t>& bonds_at, SlicedBonds& s) {
   }
 }
 
-/// The arms over the radii of all bonds, if they are the same.
-std::optional<double> common_stretch(const Bonds& b) {
-  if (b.size() == 0) return std::nullopt;
-  const bool same = std::all_of(b.stretch.begin(), b.stretch.end(), [&](double s) { return s == b.stretch.front(); });
-  return same ? std::optional(b.stretch.front()) : std::nullopt;
+bool all_touch(const Bonds& b) {
+  return std::all_of(b.stretch.begin(), b.stretch.end(), [](double s) { return s == 1.0; });
 }
 
 /// Every place bonded to itself, without an arm.
@@ -33,7 +29,7 @@ void fill_up(bool stiffness, bool lengths, bool stretch, SlicedBonds& s) {
     for (std::int32_t k = s.row_begin[slice] * kLanes; k < s.row_begin[slice + 1] * kLanes; ++k)
       s.neighbour[k] = slice * kLanes + k % kLanes;
   }
-  s.nx.assign(half_bonds, stretch ? 1.0 : 2.0);
+  s.nx.assign(half_bonds, stretch ? 1.0 : 0.0);
   s.ny.assign(half_bonds, 0.0);
   if (stretch) s.stretch.assign(half_bonds, 0.0);
   if (lengths) s.length.assign(half_bonds, 1.0);
@@ -49,16 +45,15 @@ SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position,
   std::vector<std::int32_t> bonds_at(static_cast<std::size_t>(s.slices) * kLanes, 0);
   for (std::size_t c = 0; c < b.size(); ++c) ++bonds_at[position[b.i[c]]], ++bonds_at[position[b.j[c]]];
   lay_rows(bonds_at, s);
-  const std::optional<double> common = stiffness.empty() && !lengths ? common_stretch(b) : std::nullopt;
-  s.common_stretch = common.value_or(0.0);
-  fill_up(!stiffness.empty(), lengths, !common, s);
+  const bool touching = stiffness.empty() && !lengths && all_touch(b);
+  fill_up(!stiffness.empty(), lengths, !touching, s);
   std::fill(bonds_at.begin(), bonds_at.end(), 0);
   const auto put = [&](std::size_t c, int at, int other, double sign) {
     const std::size_t row = static_cast<std::size_t>(s.row_begin[at / kLanes] + bonds_at[at]++),
                       k = row * kLanes + static_cast<std::size_t>(at % kLanes);
     s.neighbour[k] = other;
     s.nx[k] = sign * b.nx[c], s.ny[k] = sign * b.ny[c];
-    if (!common) s.stretch[k] = b.stretch[c];
+    if (!touching) s.stretch[k] = b.stretch[c];
     if (lengths) s.length[k] = b.length[c];
     if (!stiffness.empty()) s.stiffness[k] = stiffness[c];
   };

@@ -3,7 +3,7 @@
 // r-th bond of each of its discs, so that one SIMD lane is one disc and every disc sums its own bonds in a fixed order
 // (the same bits for any number of threads). A bond is stored twice, once from either end, with its normal turned.
 // A disc with fewer bonds than its slice has rows is filled up with bonds to itself without an arm: they give no force.
-// Where all bonds have the same arms, such a row is known by a normal (2, 0), which no bond has.
+// Where all discs touch, as on a lattice, arms are radii and are not kept; a bond to itself then has no normal.
 //
 // The arms of a bond, a_i = r_i L / (r_i + r_j), differ from the radii by the same factor s = L / (r_i + r_j) at both ends.
 // The solver therefore keeps rotations and strains times the radius, r theta and r eps, and of the arms s alone.
@@ -24,8 +24,7 @@ struct SlicedBonds {
   std::vector<std::int32_t> row_begin;     ///< slices + 1: first row of each slice
   AlignedVector<std::int32_t> neighbour;   ///< rows * kLanes, index of the other disc
   AlignedVector<double> nx, ny;            ///< unit normal towards the neighbour
-  AlignedVector<double> stretch;           ///< s = L / (r_i + r_j); empty where all bonds have the same
-  double common_stretch = 0.0;             ///< that one
+  AlignedVector<double> stretch;           ///< s = L / (r_i + r_j); empty where all are 1
   AlignedVector<double> length;            ///< L, m; empty unless asked for
   AlignedVector<double> stiffness;         ///< k_n, N/m; empty where all bonds have the same
 
@@ -35,7 +34,7 @@ struct SlicedBonds {
 };
 
 /// `position[d]` is the place of disc d in the solver's order; `stiffness` one value a bond, or empty. With neither
-/// stiffnesses nor lengths, arms that all bonds have in common are kept once.
+/// stiffnesses nor lengths, arms that are radii are left out.
 SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths);
 
 /// An order of the discs in which neighbours are near in memory: bands across the strip's short side.

@@ -18,7 +18,6 @@ struct StepData {
   const std::int32_t* row_begin;
   const std::int32_t* neighbour;
   const double *nx, *ny, *stretch, *length;
-  double common_stretch;                       ///< in place of `stretch`, where all bonds have the same
   double normal_stiffness, shear_stiffness;  ///< the same for every bond, or
   const double* bond_stiffness;              ///< k_n of every stored half-bond, and
   double stiffness_ratio;                    ///< k_t / k_n
@@ -65,7 +64,7 @@ struct StepFeatures {
   StrainCoupling strain = StrainCoupling::none;
   bool implicit = false;
   bool per_bond_stiffness = false;
-  bool common_stretch = false;  ///< linear, and one stiffness for all bonds
+  bool touching = false;  ///< no bond has arms of its own; with linear kinematics and one stiffness for all bonds
   bool watched = false;  ///< note the fastest and the most strained disc
 };
 

@@ -18,6 +18,7 @@ namespace {
 
 template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain>
 struct StepKernel {
+  using State = typename Bond::State;
   static constexpr bool kDeformable = kStrain != StrainCoupling::none;
 
   struct Sums {
@@ -47,14 +48,14 @@ struct StepKernel {
     return o;
   }
 
-  DDEM_INLINE static BondState rigid(const StepData& d, int k, const Triple& own) {
+  DDEM_INLINE static State rigid(const StepData& d, int k, const Triple& own) {
     const Triple other = gather(d.motion, d.neighbour + k);
     return Kinematics::template overlaps<Bond, kRotation>(d, k, {other.a - own.a, other.b - own.b}, own.c, other.c);
   }
 
   /// Overlaps with the discs' strains. Where both are corrected and the normal stands still, the approach of the boundaries
   /// is taken from the displacement itself.
-  DDEM_INLINE static BondState deformed(const StepData& d, int k, const Own& own) {
+  DDEM_INLINE static State deformed(const StepData& d, int k, const Own& own) {
     if constexpr (!kDeformable) {
       return rigid(d, k, own.motion);
     } else if constexpr (Kinematics::kLinear && kRotation && kStrain == StrainCoupling::full) {
@@ -63,7 +64,7 @@ struct StepKernel {
       const Vector u{(other.a - own.motion.a) - v.x, (other.b - own.motion.b) - v.y};
       return Kinematics::template overlaps<Bond, kRotation>(d, k, u, own.motion.c, other.c);
     } else {
-      BondState b = rigid(d, k, own.motion);
+      State b = rigid(d, k, own.motion);
       const Triple other = gather(d.strain, d.neighbour + k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
         const Vector v = approach(b, own.strain, other);
@@ -78,7 +79,7 @@ struct StepKernel {
 
   /// Force and moment on the disc, or the stress in it, or both.
   template <bool kForce, bool kStress>
-  DDEM_INLINE static void add(const StepData& d, const BondState& b, int k, Sums& sum) {
+  DDEM_INLINE static void add(const StepData& d, const State& b, int k, Sums& sum) {
     const Pack f_n = Bond::normal(d, k) * b.u_n;
     Pack fx = f_n * b.nx, fy = f_n * b.ny;
     if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_normal_stress(b, dyad(b), f_n, sum);
@@ -96,13 +97,13 @@ struct StepKernel {
   }
 
   /// V_p sigma_p / r = sum_c s n (x) F_c; sxy holds the sum of both shear stresses.
-  DDEM_INLINE static void add_stress(const BondState& b, Pack fx, Pack fy, Sums& sum) {
+  DDEM_INLINE static void add_stress(const State& b, Pack fx, Pack fy, Sums& sum) {
     const Pack sx = b.stretch * b.nx, sy = b.stretch * b.ny;
     sum.sxx += sx * fx;
     sum.syy += sy * fy;
     sum.sxy += sx * fy + sy * fx;
   }
-  DDEM_INLINE static void add_normal_stress(const BondState& b, const Dyad& n, Pack f_n, Sums& sum) {
+  DDEM_INLINE static void add_normal_stress(const State& b, const Dyad& n, Pack f_n, Sums& sum) {
     const Pack g = b.stretch * f_n;
     sum.sxx += g * n.xx;
     sum.syy += g * n.yy;
@@ -183,7 +184,7 @@ struct StepKernel {
   template <bool kForce, bool kStress>
   DDEM_INLINE static auto strained(const StepData& d) {
     return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
-      const BondState b = bond_at<Bond>(d, k);
+      const State b = bond_at<Bond>(d, k);
       const Triple other = gather(d.strain, d.neighbour + k);
       const Pack k_n = Bond::normal(d, k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
@@ -378,9 +379,9 @@ template <class Kinematics>
 StepKernels choose_bonds(const StepFeatures& f) {
   if (f.per_bond_stiffness) return choose_rotation<Kinematics, BondStiffness>(f);
   if constexpr (Kinematics::kLinear) {
-    if (f.common_stretch) return choose_rotation<Kinematics, UniformBonds>(f);
+    if (f.touching) return choose_rotation<Kinematics, UniformStiffness<TouchingBonds>>(f);
   }
-  return choose_rotation<Kinematics, UniformStiffness>(f);
+  return choose_rotation<Kinematics, UniformStiffness<StretchedBonds>>(f);
 }
 
 }  // namespace

@@ -318,7 +318,6 @@ void Stepper::bind() {
   StepData& d = data_;
   d.row_begin = bonds_.row_begin.data(), d.neighbour = bonds_.neighbour.data();
   d.nx = bonds_.nx.data(), d.ny = bonds_.ny.data(), d.stretch = bonds_.stretch.data(), d.length = bonds_.length.data();
-  d.common_stretch = bonds_.common_stretch;
   d.bond_stiffness = bonds_.stiffness.data();
   if (gradients_) gradients_->bind(d);
   d.motion = motion_.data();
