@@ -36,7 +36,7 @@ struct StretchedBonds {
 struct TouchingBonds {
   using State = BondState<One>;
   DDEM_INLINE static One stretch(const StepData&, int) { return {}; }
-  DDEM_INLINE static Pack roll(const State& b, Pack rotations) { return (b.nx == 0.0) & (b.ny == 0.0) ? Pack{} : rotations; }
+  DDEM_INLINE static Pack roll(const State& b, Pack rotations) { return unless_zero(b.nx, b.ny, rotations); }
 };
 
 /// k_n and k_t of the row's bonds.

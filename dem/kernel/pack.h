@@ -24,6 +24,38 @@ DDEM_INLINE Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p
 DDEM_INLINE void store(double* p, Pack v) { *reinterpret_cast<Pack*>(p) = v; }
 DDEM_INLINE Pack all(double x) { return Pack{x, x, x, x, x, x, x, x}; }
 
+/// The value, but zero where x and y are both +0: one comparison, of their bits.
+#ifdef __AVX512F__
+DDEM_INLINE Pack unless_zero(Pack x, Pack y, Pack value) {
+  using Bits = std::int64_t __attribute__((vector_size(64)));
+  return (reinterpret_cast<Bits>(x) | reinterpret_cast<Bits>(y)) == 0 ? Pack{} : value;
+}
+#else
+// By parts that registers hold: the compiler compares longer ones number by number.
+template <int kFirst>
+DDEM_INLINE auto part_unless_zero(Pack x, Pack y, Pack value) {
+  const auto part = [](Pack v) DDEM_INLINE_LAMBDA {
+#ifdef __AVX2__
+    return __builtin_shufflevector(v, v, kFirst, kFirst + 1, kFirst + 2, kFirst + 3);
+#else
+    return __builtin_shufflevector(v, v, kFirst, kFirst + 1);
+#endif
+  };
+  const auto c = part(value);
+  using Bits = decltype(c == c);
+  return (reinterpret_cast<Bits>(part(x)) | reinterpret_cast<Bits>(part(y))) == 0 ? decltype(part(value)){} : c;
+}
+DDEM_INLINE Pack unless_zero(Pack x, Pack y, Pack value) {
+#ifdef __AVX2__
+  return __builtin_shufflevector(part_unless_zero<0>(x, y, value), part_unless_zero<4>(x, y, value), 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+  const auto a = part_unless_zero<0>(x, y, value), b = part_unless_zero<2>(x, y, value), c = part_unless_zero<4>(x, y, value),
+             d = part_unless_zero<6>(x, y, value);
+  return Pack{a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]};
+#endif
+}
+#endif
+
 /// Of numbers that are not negative: their order is that of their bits, and the larger of two integers is one instruction. What
 /// is no number counts as larger than all.
 DDEM_INLINE Pack larger(Pack x, Pack y) {

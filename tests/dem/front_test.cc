@@ -11,7 +11,6 @@
 #include <numeric>
 
 #include "dem/simulation/simulation.h"
-#include "dem/simulation/stepper.h"
 #include "dem/spectra/spectra.h"
 #include "tests/support/assemblies.h"
 
@@ -171,22 +170,6 @@ TEST(Sweeps, RoundAPeriod) {
   expect_same_bits(single, simulate(a, in));
   in.threads = 3;
   expect_same_bits(single, simulate(a, in));
-}
-
-/// Bytes a disc of what a step works on, where a disc has three bonds: one index and two components of a normal a half-bond,
-/// three displacements and one to align them, three velocities, one kick, one place; arms and stiffnesses of bonds that
-/// differ.
-TEST(Sweeps, ArraysAreSmall) {
-  const Assembly a = test::hexagonal_assembly({.columns = 300, .rows = 60, .radius = 1e-4});
-  SimulationInput in;
-  in.contact = {kNormalStiffness, 0.25, Kinematics::linear};
-  in.time_step = 1e-9;
-  const auto bytes_a_disc = [&] {
-    return static_cast<double>(Stepper(a, in, best_instruction_set()).array_bytes()) / static_cast<double>(a.size());
-  };
-  EXPECT_LE(bytes_a_disc(), 200.0);
-  in.contact.contact_modulus = kNormalStiffness;
-  EXPECT_LE(bytes_a_disc(), 330.0);
 }
 
 /// Two rows of twenty discs that no bond joins: the motion gets across when the gap closes.

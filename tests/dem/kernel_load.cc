@@ -22,7 +22,7 @@ using namespace ddem;
 constexpr long kSteps = 200;
 
 extern "C" [[gnu::noinline]] void counted_steps(Stepper& stepper) {
-  for (long done = 0; done < kSteps; done += stepper.finish_stage() ? 1 : 0) stepper.advance(0, stepper.slices());
+  for (long done = 0; done < kSteps; done += stepper.finish_stage() ? 1 : 0) stepper.advance(0);
 }
 
 extern "C" [[gnu::noinline]] long counted_wave(const Assembly& a, const SimulationInput& in, const Sampling& sampling) {
