@@ -171,7 +171,7 @@ std::optional<std::string> version_of(const std::string& program) {
 
 }  // namespace
 
-std::vector<PeerPlan> peer_plans() { return {{682, 20000, 3}, {100000, 150, 3}}; }
+std::vector<PeerPlan> peer_plans() { return {{682, 20000, 3}, {100000, 150, 3}, {1000000, 32, 2}}; }
 
 Peers time_peers(const std::vector<PeerPlan>& plans, const std::function<void()>& progress, const std::string& program) {
   Peers peers;
