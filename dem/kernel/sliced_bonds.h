@@ -37,8 +37,9 @@ struct SlicedBonds {
 /// stiffnesses nor lengths, arms that are radii are left out.
 SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths);
 
-/// An order of the discs in which neighbours are near in memory: bands across the strip's short side.
+/// An order of the discs in which neighbours are near in memory, bands across the strip's short side, and discs of a slice
+/// have about as many bonds.
 /// Returns position[d].
-std::vector<int> locality_order(const Packing& packing);
+std::vector<int> locality_order(const Packing& packing, const Bonds& bonds);
 
 }  // namespace ddem

@@ -35,7 +35,7 @@ bool held(const std::vector<std::uint8_t>& mask, std::size_t disc) { return !mas
 }  // namespace
 
 Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet isa)
-    : position_(locality_order(a.packing)),
+    : position_(locality_order(a.packing, a.bonds)),
       discs_(a.size()),
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
