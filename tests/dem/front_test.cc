@@ -134,6 +134,9 @@ TEST_P(Front, KeepsTheBits) {
 
 /// Where a sweep may take several steps: one stage a step, one thread; elsewhere it takes one.
 TEST_P(Front, SeveralStepsASweepKeepTheBits) {
+  const bool one_stage = GetParam().deformation.scheme != Scheme::implicit && GetParam().deformation.evaluations == 1;
+  std::vector<std::pair<int, int>> threads_and_steps{{1, 7}, {2, 3}};
+  if (one_stage) threads_and_steps = {{1, 2}, {1, 3}, {1, 7}, {1, 16}, {2, 2}, {2, 3}, {2, 16}, {3, 2}};
   for (const Assembly& a : {test::random_free_strip(), test::hexagonal_assembly({.columns = 40, .rows = 9, .radius = 1e-4})}) {
     SimulationInput in = input(a);
     in.steps = 150;
@@ -142,7 +145,7 @@ TEST_P(Front, SeveralStepsASweepKeepTheBits) {
       in.sample_every = sample_every;
       in.threads = in.steps_a_sweep = 1;
       const SimulationResult single = simulate(a, in);
-      for (const auto& [threads, steps] : {std::pair(1, 2), {1, 3}, {1, 7}, {1, 16}, {2, 2}, {2, 3}, {2, 16}, {3, 2}}) {
+      for (const auto& [threads, steps] : threads_and_steps) {
         in.threads = threads, in.steps_a_sweep = steps;
         SCOPED_TRACE(testing::Message() << threads << " threads, steps a sweep " << steps);
         expect_same_bits(single, simulate(a, in));
