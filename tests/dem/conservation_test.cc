@@ -160,6 +160,24 @@ TEST_P(EveryModel, SameBitsForEveryThreadCountAndInstructionSet) {
   }
 }
 
+/// A driven disc and one that nothing has moved yet: the energy of their bond at t_1 is k_n u(t_1)^2 / 2.
+TEST(Energies, OfADrivenDiscAreThoseOfItsTime) {
+  Packing p;
+  p.x = {1e-4, 3e-4}, p.y = {1e-4, 1e-4}, p.radius = {1e-4, 1e-4};
+  p.length = 4e-4, p.width = 2e-4;
+  const Assembly a = make_assembly(p, bonds_within_gap(p, 1e-6), 1.0, test::kDensity);
+  SimulationInput in;
+  in.contact = {test::kNormalStiffness, 0.0, Kinematics::linear};
+  in.time_step = 1e-9;
+  in.steps = in.energy_samples = 4;
+  in.drive = EdgeDrive{{0}, Direction::x, 1e-8, 20.0 * in.time_step};
+  const SimulationResult r = simulate(a, in);
+  ASSERT_GE(r.energy.size(), 2u);
+  EXPECT_DOUBLE_EQ(r.energy[1].time, in.time_step);
+  const double u = in.drive->displacement(in.time_step);
+  EXPECT_NEAR(r.energy[1].energies.contact, 0.5 * test::kNormalStiffness * u * u, 1e-12 * test::kNormalStiffness * u * u);
+}
+
 TEST_P(EveryModel, PermutingDiscsChangesRoundOffOnly) {
   const Assembly a = test::random_free_strip();
   SimulationInput in = input_for(a, GetParam(), 200);
