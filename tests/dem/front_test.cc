@@ -147,6 +147,7 @@ TEST_P(Front, SeveralStepsASweepKeepTheBits) {
     std::vector<int> all(a.size());
     std::iota(all.begin(), all.end(), 0);
     in.receivers.push_back({all});
+    in.energy_samples = 2;  // each ends a sweep
     in.initial.vx = test::Noise(7).vector(a.size(), 1e-3);  // all of them move, where shares meet too
     for (const int sample_every : {1, 3}) {
       in.sample_every = sample_every;
