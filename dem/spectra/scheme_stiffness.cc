@@ -79,11 +79,29 @@ Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
 
 SparseMatrix strain_coupling(const Operators& op) { return op.stress * op.stiffness.asDiagonal() * op.strain_overlap; }
 
-StrainIteration::StrainIteration(const Operators& op) : coupling_(strain_coupling(op)), factor_(op.strain_stiffness) {}
+namespace {
 
-Eigen::VectorXd StrainIteration::apply(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd y = coupling_ * factor_.matrixU().solve(x);
-  return factor_.matrixL().solve(y);
+/// Of blocks of 3 x 3 on the diagonal.
+SparseMatrix inverse_of_blocks(const SparseMatrix& lower) {
+  std::vector<Eigen::Triplet<double>> t;
+  for (Eigen::Index p = 0; p < lower.cols(); p += 3) {
+    const Eigen::Matrix3d of = lower.block(p, p, 3, 3);
+    const Eigen::Matrix3d block = of.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      for (Eigen::Index m = k; m < 3; ++m) t.emplace_back(static_cast<int>(p + m), static_cast<int>(p + k), block(m, k));
+    }
+  }
+  SparseMatrix inverse(lower.rows(), lower.cols());
+  inverse.setFromTriplets(t.begin(), t.end());
+  return inverse;
+}
+
+}  // namespace
+
+StrainIteration::StrainIteration(const Operators& op) : factor_(op.strain_stiffness) {
+  const SparseMatrix inverse = inverse_of_blocks(factor_.matrixL().nestedExpression());
+  const SparseMatrix right = op.strain_overlap * SparseMatrix(inverse.transpose());
+  matrix_ = SparseMatrix(inverse * op.stress) * op.stiffness.asDiagonal() * right;
 }
 
 double spectral_radius(const StrainIteration& t) {

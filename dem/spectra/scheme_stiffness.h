@@ -60,15 +60,15 @@ class StrainIteration {
  public:
   explicit StrainIteration(const Operators& operators);
 
-  Eigen::Index size() const { return coupling_.rows(); }
-  Eigen::VectorXd apply(const Eigen::VectorXd& x) const;
+  Eigen::Index size() const { return matrix_.rows(); }
+  Eigen::VectorXd apply(const Eigen::VectorXd& x) const { return matrix_ * x; }
   /// L^-1 x and L^-T x.
   Eigen::VectorXd lower_solve(const Eigen::VectorXd& x) const { return factor_.matrixL().solve(x); }
   Eigen::VectorXd upper_solve(const Eigen::VectorXd& x) const { return factor_.matrixU().solve(x); }
 
  private:
-  SparseMatrix coupling_;
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;  // 3 x 3 blocks
+  SparseMatrix matrix_;                                                                   // T
 };
 
 /// Of T: the lagged strains converge where it is below 2/w - 1.

@@ -167,8 +167,9 @@ StiffnessRates homogenise(const Assembly& a, const StaticSolver& solver, const S
   const std::size_t parameters = operator_rate.size();
   Eigen::Matrix3d strain = Eigen::Matrix3d::Identity(), stress;
   std::vector<Eigen::Matrix3d> strain_rate(parameters), stress_rate(parameters);
+  const std::vector<StaticState> states = solver.solve(kUnitStrains);
   for (int k = 0; k < 3; ++k) {
-    const StaticState state = solver.solve(kUnitStrains[k]);
+    const StaticState& state = states[k];
     const Response r = response(a, op, state, gauge);
     strain.col(k) += r.strain;
     stress.col(k) = r.stress;

@@ -16,17 +16,6 @@ SparseMatrix sparse(Eigen::Index rows, Eigen::Index cols, const Triplets& t) {
   return m;
 }
 
-/// Rows of C: u_n = n.(u_j - u_i), u_t = t.(u_j - u_i) - a_i theta_i - a_j theta_j, t = (-n_y, n_x).
-void add_overlap_rows(Triplets& t, const Bonds& b, int c, const Operators& op) {
-  const int row = op.rows_per_bond * c;
-  const int i = op.dofs_per_disc * b.i[c], j = op.dofs_per_disc * b.j[c];
-  const double nx = b.nx[c], ny = b.ny[c];
-  t.insert(t.end(), {{row, i, -nx}, {row, i + 1, -ny}, {row, j, nx}, {row, j + 1, ny}});
-  if (op.rows_per_bond == 1) return;
-  t.insert(t.end(), {{row + 1, i, ny}, {row + 1, i + 1, -nx}, {row + 1, j, -ny}, {row + 1, j + 1, nx}});
-  t.insert(t.end(), {{row + 1, i + 2, -b.arm_i[c] / op.length_scale}, {row + 1, j + 2, -b.arm_j[c] / op.length_scale}});
-}
-
 /// What a uniform strain of one disc adds to the overlaps of a bond: a n.eps.n and a t.eps.n.
 struct StrainRows {
   std::array<double, 3> normal, tangential;
@@ -36,23 +25,26 @@ StrainRows strain_rows(double nx, double ny, double arm) {
   return {{arm * nx * nx, arm * ny * ny, arm * 2.0 * nx * ny}, {-arm * nx * ny, arm * nx * ny, arm * (nx * nx - ny * ny)}};
 }
 
+bool corrects_slip(const DeformationParameters& d) { return d.correction == Correction::full; }
+bool takes_shear_forces(const DeformationParameters& d) { return d.correction != Correction::normal_only_stress; }
+
 void add_deformation(Operators& op, const Assembly& a, const DeformationParameters& deformation) {
   const Bonds& b = a.bonds;
   const Eigen::Index rows = op.overlap.rows(), strains = 3 * static_cast<Eigen::Index>(a.size());
   const bool tangential = op.rows_per_bond == 2;
-  const bool correct_slip = tangential && deformation.correction == Correction::full;
-  const bool stress_of_shear = tangential && deformation.correction != Correction::normal_only_stress;
+  const bool correct_slip = tangential && corrects_slip(deformation);
+  const bool stress_of_shear = tangential && takes_shear_forces(deformation);
   Triplets g, s, vc;
   for (int c = 0; c < static_cast<int>(b.size()); ++c) {
-    for (const bool second : {false, true}) {
-      const int disc = second ? b.j[c] : b.i[c];
-      const StrainRows r = strain_rows(b.nx[c], b.ny[c], (second ? b.arm_j[c] : b.arm_i[c]) / op.length_scale);
+    const BondRows bond = bond_rows(b, static_cast<std::size_t>(c), op.length_scale, deformation);
+    const int row = op.rows_per_bond * c;
+    for (const int side : {0, 1}) {
+      const int disc = 3 * (side == 0 ? b.i[c] : b.j[c]);
       for (int k = 0; k < 3; ++k) {
-        const int row = op.rows_per_bond * c;
-        g.emplace_back(row, 3 * disc + k, r.normal[k]);
-        s.emplace_back(3 * disc + k, row, r.normal[k]);
-        if (correct_slip) g.emplace_back(row + 1, 3 * disc + k, r.tangential[k]);
-        if (stress_of_shear) s.emplace_back(3 * disc + k, row + 1, r.tangential[k]);
+        g.emplace_back(row, disc + k, bond.strain[0][side][k]);
+        s.emplace_back(disc + k, row, bond.stress[0][side][k]);
+        if (correct_slip) g.emplace_back(row + 1, disc + k, bond.strain[1][side][k]);
+        if (stress_of_shear) s.emplace_back(disc + k, row + 1, bond.stress[1][side][k]);
       }
     }
   }
@@ -80,6 +72,20 @@ SparseMatrix Operators::stiffness_matrix() const {
   return SparseMatrix(overlap.transpose()) * stiffness.asDiagonal() * overlap;
 }
 
+/// u_n = n.(u_j - u_i), u_t = t.(u_j - u_i) - a_i theta_i - a_j theta_j, t = (-n_y, n_x).
+BondRows bond_rows(const Bonds& b, std::size_t c, double length_scale, const DeformationParameters& deformation) {
+  const double nx = b.nx[c], ny = b.ny[c], arm_i = b.arm_i[c] / length_scale, arm_j = b.arm_j[c] / length_scale;
+  BondRows r{};
+  r.overlap = {{{{{-nx, -ny, 0.0}, {nx, ny, 0.0}}}, {{{ny, -nx, -arm_i}, {-ny, nx, -arm_j}}}}};
+  const StrainRows of[] = {strain_rows(nx, ny, arm_i), strain_rows(nx, ny, arm_j)};
+  for (const int side : {0, 1}) {
+    r.strain[0][side] = r.stress[0][side] = of[side].normal;
+    if (corrects_slip(deformation)) r.strain[1][side] = of[side].tangential;
+    if (takes_shear_forces(deformation)) r.stress[1][side] = of[side].tangential;
+  }
+  return r;
+}
+
 Operators make_operators(const Assembly& a, const ContactParameters& contact,
                          const DeformationParameters& deformation) {
   Operators op;
@@ -88,7 +94,15 @@ Operators make_operators(const Assembly& a, const ContactParameters& contact,
   op.length_scale = mean_radius(a.packing);
   const int bonds = static_cast<int>(a.bonds.size());
   Triplets t;
-  for (int c = 0; c < bonds; ++c) add_overlap_rows(t, a.bonds, c, op);
+  for (int c = 0; c < bonds; ++c) {
+    const BondRows bond = bond_rows(a.bonds, static_cast<std::size_t>(c), op.length_scale, deformation);
+    for (int r = 0; r < op.rows_per_bond; ++r) {
+      for (int k = 0; k < (r == 0 ? 2 : 3); ++k) {  // a rotation has no part in a normal overlap
+        t.emplace_back(op.rows_per_bond * c + r, op.dofs_per_disc * a.bonds.i[c] + k, bond.overlap[r][0][k]);
+        t.emplace_back(op.rows_per_bond * c + r, op.dofs_per_disc * a.bonds.j[c] + k, bond.overlap[r][1][k]);
+      }
+    }
+  }
   op.overlap = sparse(op.rows_per_bond * bonds, op.dofs_per_disc * static_cast<Eigen::Index>(a.size()), t);
   op.stiffness.resize(op.overlap.rows());
   const std::vector<double> k_n = normal_stiffnesses(a, contact);

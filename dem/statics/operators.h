@@ -38,6 +38,13 @@ struct Operators {
   SparseMatrix stiffness_matrix() const;  ///< C^T K C
 };
 
+/// The rows of one bond, normal and tangential, in C, G and S^T: what each of its discs i and j has in them.
+struct BondRows {
+  using Row = std::array<std::array<double, 3>, 2>;
+  std::array<Row, 2> overlap, strain, stress;
+};
+BondRows bond_rows(const Bonds& bonds, std::size_t c, double length_scale, const DeformationParameters& deformation);
+
 Operators make_operators(const Assembly& assembly, const ContactParameters& contact,
                          const DeformationParameters& deformation);
 

@@ -1,18 +1,14 @@
 #pragma once
 // Static equilibrium of an assembly under a macroscopic strain, with converged particle strains.
 
-#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "dem/statics/held_dofs.h"
 #include "dem/statics/operators.h"
 
 namespace ddem {
-
-/// Degrees of freedom that do not move (1), disc by disc. Empty vectors: none.
-struct HeldDofs {
-  std::vector<std::uint8_t> x, y, theta;
-};
 
 /// Equilibrium: displacement E . x + fluctuation (without a macroscopic strain the displacement itself), and the forces of
 /// the bonds.
@@ -34,7 +30,7 @@ Eigen::Vector2d bond_force(const Bonds& bonds, const Operators& operators, const
 /// Factorises once, solves for any number of strains. The system in (q, eps) is
 ///   [ C^T K C    -C^T K G      ] [q  ]     [ C^T K e_E ]
 ///   [ -S K C     V C + S K G   ] [eps] = - [ -S K e_E  ],   e_E = affine overlaps;
-/// symmetric positive definite for F and NN, factorised by LDL^T, by LU for N with tangential stiffness.
+/// symmetric positive definite for F and NN, and factorised front by front (front_factors.h).
 /// Modes without stiffness (rigid motion, floppy discs) get a regularisation of 1e-11 of the stiffest entry, the
 /// same for every scaled unknown, whose influence iterative refinement takes out again.
 class StaticSolver {
@@ -47,6 +43,8 @@ class StaticSolver {
 
   /// Throws std::runtime_error if the residual does not fall below 1e-12 of the load.
   StaticState solve(const MacroStrain& strain) const;
+  /// Of several at once, the same bits in less time.
+  std::vector<StaticState> solve(std::span<const MacroStrain> strains) const;
   /// The same for held degrees of freedom that are moved: their entries of `displacement` (q as in Operators, the others 0).
   StaticState solve_moved(const Eigen::VectorXd& displacement) const;
   /// d(state)/dp of an equilibrium that solve() returned, macroscopic strain and held degrees of freedom as they are:

@@ -1,0 +1,44 @@
+#pragma once
+// Sparse factorisation A = L D U of the equations of statics, front by front (Duff & Reid, ACM Trans. Math. Softw. 9 (1983)
+// 302): each front adds up the bonds of its discs with those behind them and what earlier fronts left over, eliminates its
+// own discs as a dense matrix and hands on what is left.
+//
+// Without exchange of rows. Where the matrix is symmetric it is positive definite, so that none is needed; what the
+// published correction makes unsymmetric leaves both blocks on the diagonal, of displacements and of strains, positive
+// definite, and the caller's refinement takes out what small pivots leave.
+
+#include <vector>
+
+#include "dem/kernel/aligned.h"
+#include "dem/statics/bond_system.h"
+#include "dem/statics/dense_front.h"
+#include "dem/statics/elimination_tree.h"
+
+namespace ddem {
+
+class FrontFactors {
+ public:
+  /// `regularisation` is added to the diagonal of the displacements. The tree is the system's. Throws std::runtime_error
+  /// where a pivot vanishes.
+  FrontFactors(const BondSystem& system, EliminationTree tree, double regularisation);
+
+  /// A^-1 of each column.
+  void solve(Eigen::MatrixXd& columns) const;
+
+ private:
+  friend class FrontAssembly;
+  /// Row of each disc of the rest in the front's columns.
+  DenseFront shape_of(const Front& front) const;
+  /// With the columns that are kept.
+  DenseFront kept(std::size_t front) const;
+
+  EliminationTree tree_;
+  int unknowns_per_disc_;
+  bool symmetric_;
+  FrontKernels kernels_;
+  std::vector<std::size_t> begin_;  ///< of each front's columns
+  // The kernels only read them once they are made; that they take them as they make them keeps them from being const.
+  mutable AlignedVector<double> lower_, upper_, inverse_pivot_;
+};
+
+}  // namespace ddem
