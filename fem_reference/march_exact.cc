@@ -24,7 +24,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 // The displacement is factor sum_k a_k(t) T_k start + motion(t) edge.
 struct Response {
   std::vector<double> start;
-  std::function<void(double time, double time_step, std::span<double> a)> coefficients;
+  std::function<void(std::span<const double> times, double time_step, std::span<double> a)> coefficients;
   double factor = 1.0;
   std::vector<double> edge;                ///< receivers' values of a unit motion of the driven edge
   std::function<double(double)> motion;
@@ -40,7 +40,7 @@ Response driven(const StripProblem& problem) {
   r.start.resize(edge.size());
   problem.stiffness.apply(edge, r.start);
   for (std::size_t k = 0; k < r.start.size(); ++k) r.start[k] *= -problem.inverse_mass[k];
-  r.coefficients = [pulse](double t, double dt, std::span<double> a) { drive_coefficients(pulse, t, dt, a); };
+  r.coefficients = [pulse](std::span<const double> t, double dt, std::span<double> a) { drive_coefficients(pulse, t, dt, a); };
   r.factor = drive.amplitude;
   const ReceiverReader receivers(problem.model, problem.stiffness);
   r.edge.resize(receivers.values());
@@ -86,19 +86,17 @@ void filter_share(const Response& response, const Matrix& states, CaseResult& re
   constexpr Eigen::Index block = 64;
   const auto samples = static_cast<Eigen::Index>(result.time.size());
   Eigen::Map<Matrix> signals(result.signals.data(), samples, states.cols());
-  Matrix coefficients(block, states.rows());
+  Eigen::MatrixXd coefficients(block, states.rows());
   const auto [first_block, last_block] = team.part(static_cast<std::size_t>((samples + block - 1) / block), thread);
   for (Eigen::Index first = block * static_cast<Eigen::Index>(first_block); first < block * static_cast<Eigen::Index>(last_block); first += block) {
     const Eigen::Index count = std::min(block, samples - first);
     // Later states do not reach back to these samples.
     const Eigen::Index reach = std::min<Eigen::Index>(
         states.rows(), static_cast<Eigen::Index>(states_for(result.time[first + count - 1], result.time_step)));
-    for (Eigen::Index row = 0; row < count; ++row) {
-      response.coefficients(result.time[first + row], result.time_step,
-                            {&coefficients(row, 0), static_cast<std::size_t>(reach)});
-    }
+    const std::span<const double> times(&result.time[static_cast<std::size_t>(first)], static_cast<std::size_t>(count));
+    response.coefficients(times, result.time_step, {coefficients.data(), static_cast<std::size_t>(count * reach)});
     auto out = signals.middleRows(first, count);
-    out.noalias() = response.factor * (coefficients.topLeftCorner(count, reach) * states.topRows(reach));
+    out.noalias() = response.factor * (Eigen::Map<const Eigen::MatrixXd>(coefficients.data(), count, reach) * states.topRows(reach));
     if (!response.motion) continue;
     const Eigen::Map<const Eigen::RowVectorXd> edge(response.edge.data(), states.cols());
     for (Eigen::Index row = 0; row < count; ++row) out.row(row) += response.motion(result.time[first + row]) * edge;

@@ -8,13 +8,28 @@
 #include "dem/core/time_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "dem/core/bessel_lanes.h"
+
 namespace ddem {
+
+namespace baseline {
+extern const BesselFill fill_bessel;
+}
+#ifdef DDEM_X86_KERNELS
+namespace avx2 {
+extern const BesselFill fill_bessel;
+}
+namespace avx512 {
+extern const BesselFill fill_bessel;
+}
+#endif
+
 namespace {
 
 using std::numbers::pi;
@@ -33,55 +48,53 @@ std::size_t last_order(double z) {
   return static_cast<std::size_t>(n);
 }
 
-// Miller's recurrence J_(n-1) = (2n/z) J_n - J_(n+1) from `order` down to 0: visit(n, c J_n), returns 1/c from
-// J_0 + 2 sum J_2k = 1.
-template <typename Visit>
-double visit_bessel(double z, std::size_t order, const Visit& visit) {
-  const double two_over_z = 2.0 / z;
-  double above = 0.0, here = 1e-250, sum = 0.0;
-  for (std::size_t n = order; n > 0; --n) {
-    visit(n, here);
-    if (n % 2 == 0) sum += 2.0 * here;
-    const double below = static_cast<double>(n) * two_over_z * here - above;
-    above = here;
-    here = below;
-  }
-  visit(std::size_t{0}, here);
-  return 1.0 / (sum + here);
-}
-
-void scale(std::span<double> a, double factor) {
-  for (double& value : a) value *= factor;
-}
-
 // J_n(z) is 1 for n = 0 and 0 for the others to 1e-20 below this, which also keeps the recurrence from overflow.
 constexpr double smallest_z = 1e-10;
 
-// Adds factor dt^2/4 int int J of the drive (1 - cos(alpha sigma))/2, sigma = 2 s/dt in 0..z, to `a`.
-void add_cosine_drive(double alpha, double z, double factor, std::span<double> a, std::span<double> scratch) {
-  if (z < smallest_z) return;
-  std::fill(scratch.begin(), scratch.end(), 0.0);
-  // Of the orders n + 1 and n. sin(omega t)/omega = dt sum_k J_(2k+1) W_k, W_k = T_0 + 2 (T_1 + .. + T_k): the
-  // coefficient of T_j is the sum over k >= j.
-  double i_above = 0.0, i_here = 0.0, tail = 0.0;
-  std::complex<double> d_above = 0.0, d_here = 0.0;
-  const double normalisation = visit_bessel(z, last_order(z), [&](std::size_t n, double j) {
-    // Here holds order n.
-    if (n % 2 == 1) {
-      tail += i_here - d_here.real();
-      const std::size_t k = n / 2;
-      if (k < scratch.size()) scratch[k] = k == 0 ? tail : 2.0 * tail;
+BesselFill fill_of_this_processor() {
+#ifdef DDEM_X86_KERNELS
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return avx512::fill_bessel;
+  if (__builtin_cpu_supports("avx2")) return avx2::fill_bessel;
+#endif
+  return baseline::fill_bessel;
+}
+
+// The coefficients of 2 t/dt = z, times `factor`, added to `a`; nothing for z below smallest_z.
+void add_series(BesselSeries series, double alpha, double factor, std::span<const double> z, std::span<double> a) {
+  static const BesselFill fill = fill_of_this_processor();
+  const std::size_t count = a.size() / z.size();
+  std::vector<double> raw(count * bessel_lanes);
+  for (std::size_t first = 0; first < z.size(); first += bessel_lanes) {
+    const std::size_t width = std::min(bessel_lanes, z.size() - first);
+    BesselTimes times{.two_alpha = 2.0 * alpha, .count = count};
+    for (std::size_t l = 0; l < width; ++l) {
+      if (z[first + l] < smallest_z) continue;
+      times.two_over_z[l] = 2.0 / z[first + l];
+      times.order[l] = last_order(z[first + l]);
     }
-    if (n == 0) return;
-    const double i_below = i_above + 2.0 * j;
-    const std::complex<double> d_below =
-        d_above + std::complex<double>(-2.0 * alpha * d_here.imag(), 2.0 * alpha * d_here.real()) + 2.0 * j;
-    i_above = i_here;
-    i_here = i_below;
-    d_above = d_here;
-    d_here = d_below;
-  });
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * normalisation * scratch[k];
+    std::fill(raw.begin(), raw.end(), 0.0);
+    std::array<double, bessel_lanes> scale;
+    fill(series, times, raw.data(), scale.data());
+    for (std::size_t l = 0; l < width; ++l) scale[l] = times.order[l] > 0 ? factor * (1.0 / scale[l]) : 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t l = 0; l < width; ++l) a[k * z.size() + first + l] += scale[l] * raw[k * bessel_lanes + l];
+    }
+  }
+}
+
+// 2 (t - late)/dt, 0 before it.
+std::vector<double> scaled(std::span<const double> times, double time_step, double late = 0.0) {
+  std::vector<double> z;
+  for (const double t : times) z.push_back(2.0 * std::max(t - late, 0.0) / time_step);
+  return z;
+}
+
+// What is left of the series where z is 0.
+void add_start(std::span<const double> times, double time_step, double (*first)(double), std::span<double> a) {
+  for (std::size_t m = 0; m < times.size() && !a.empty(); ++m) {
+    if (2.0 * times[m] / time_step < smallest_z) a[m] += first(times[m]);
+  }
 }
 
 }  // namespace
@@ -91,34 +104,16 @@ std::size_t states_for(double time, double time_step) {
   return z < smallest_z ? 1 : last_order(z) / 2 + 1;
 }
 
-void release_coefficients(double time, double time_step, std::span<double> a) {
+void release_coefficients(std::span<const double> times, double time_step, std::span<double> a) {
   std::fill(a.begin(), a.end(), 0.0);
-  const double z = 2.0 * time / time_step;
-  if (z < smallest_z) {
-    if (!a.empty()) a[0] = 1.0;
-    return;
-  }
-  scale(a, visit_bessel(z, last_order(z), [&](std::size_t n, double j) {
-          if (n % 2 == 0 && n / 2 < a.size()) a[n / 2] = n == 0 ? j : 2.0 * j;
-        }));
+  add_series(BesselSeries::released, 0.0, 1.0, scaled(times, time_step), a);
+  add_start(times, time_step, [](double) { return 1.0; }, a);
 }
 
-void impulse_coefficients(double time, double time_step, std::span<double> a) {
+void impulse_coefficients(std::span<const double> times, double time_step, std::span<double> a) {
   std::fill(a.begin(), a.end(), 0.0);
-  const double z = 2.0 * time / time_step;
-  if (z < smallest_z) {
-    if (!a.empty()) a[0] = time;
-    return;
-  }
-  // int cos(omega t) dt = (dt/2) (I_0 + 2 sum I_2k T_k).
-  double above = 0.0, here = 0.0;
-  const double normalisation = visit_bessel(z, last_order(z), [&](std::size_t n, double j) {
-    if (n % 2 == 0 && n / 2 < a.size()) a[n / 2] = n == 0 ? here : 2.0 * here;
-    const double below = above + 2.0 * j;
-    above = here;
-    here = below;
-  });
-  scale(a, 0.5 * time_step * normalisation);
+  add_series(BesselSeries::struck, 0.0, 0.5 * time_step, scaled(times, time_step), a);
+  add_start(times, time_step, [](double t) { return t; }, a);
 }
 
 double Sin2::operator()(double time) const {
@@ -136,18 +131,16 @@ double largest_step_for(const Sin2& pulse) {
   return largest_alpha * pulse.duration / pi;
 }
 
-void drive_coefficients(const Sin2& pulse, double time, double time_step, std::span<double> a) {
+void drive_coefficients(const Sin2& pulse, std::span<const double> times, double time_step, std::span<double> a) {
   if (!(time_step <= largest_step_for(pulse) * (1.0 + 1e-12))) {
     throw std::invalid_argument("the time step does not resolve the pulse");
   }
   std::fill(a.begin(), a.end(), 0.0);
-  std::vector<double> scratch(a.size());
   // sin^2 = (1 - cos(2 pi t/duration))/2, and what it would do after one period is taken away again.
   const double alpha = pi * time_step / pulse.duration, factor = 0.5 * time_step * 0.5 * time_step;
-  add_cosine_drive(alpha, 2.0 * time / time_step, factor, a, scratch);
-  if (time > pulse.duration) {
-    add_cosine_drive(alpha, 2.0 * (time - pulse.duration) / time_step, -factor, a, scratch);
-  }
+  add_series(BesselSeries::driven, alpha, factor, scaled(times, time_step), a);
+  const bool after = std::any_of(times.begin(), times.end(), [&](double t) { return t > pulse.duration; });
+  if (after) add_series(BesselSeries::driven, alpha, -factor, scaled(times, time_step, pulse.duration), a);
 }
 
 }  // namespace ddem

@@ -16,11 +16,15 @@ namespace ddem {
 /// >= 0, `time_step` > 0.
 std::size_t states_for(double time, double time_step);
 
+// The coefficients of one or more times fill `a`: a_k(t_m) at a[k * times.size() + m], zeros included, for k from 0 to
+// a.size()/times.size() - 1, in a time of order z. Eight times take little more than one, and each has the bits that it has
+// alone.
+
 /// u(t) = cos(sqrt(A) t) v: released from rest at v.
-void release_coefficients(double time, double time_step, std::span<double> a);
+void release_coefficients(std::span<const double> times, double time_step, std::span<double> a);
 
 /// u(t) = sin(sqrt(A) t)/sqrt(A) v: struck at rest with velocity v. a_k in s.
-void impulse_coefficients(double time, double time_step, std::span<double> a);
+void impulse_coefficients(std::span<const double> times, double time_step, std::span<double> a);
 
 /// g(t) = sin^2(pi t/duration) for 0 <= t <= duration, 0 after it.
 struct Sin2 {
@@ -35,8 +39,6 @@ double largest_step_for(const Sin2& pulse);
 
 /// u(t) = int_0^t sin(sqrt(A) (t - s))/sqrt(A) g(s) ds v: at rest, and accelerated by g(t) v; a_k in s^2. Needs
 /// time_step <= largest_step_for(pulse), or throws std::invalid_argument.
-void drive_coefficients(const Sin2& pulse, double time, double time_step, std::span<double> a);
-
-// All of them fill `a` with a_0 .. a_(size-1), zeros included, in a time of order z.
+void drive_coefficients(const Sin2& pulse, std::span<const double> times, double time_step, std::span<double> a);
 
 }  // namespace ddem

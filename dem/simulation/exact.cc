@@ -24,7 +24,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 /// sum_k a_k(t) T_k start, with the receivers' values of T_k start in the rows of `states`.
 struct Response {
   InitialState start;  // displacements alone
-  std::function<void(double time, double time_step, std::span<double> a)> coefficients;
+  std::function<void(std::span<const double> times, double time_step, std::span<double> a)> coefficients;
   bool is_motion;  // its march passes through the motion itself, if only to second order in time
   Matrix states = {};
 };
@@ -106,7 +106,7 @@ std::vector<Response> responses(const Assembly& a, const SimulationInput& in) {
   if (in.drive) {
     const Sin2 pulse{in.drive->duration};
     all.push_back({acceleration_by_edge(a, in),
-                   [pulse](double t, double dt, std::span<double> c) { drive_coefficients(pulse, t, dt, c); },
+                   [pulse](std::span<const double> t, double dt, std::span<double> c) { drive_coefficients(pulse, t, dt, c); },
                    false});
   }
   if (struck) all.push_back({velocity, impulse_coefficients, false});
@@ -137,18 +137,18 @@ Matrix as_matrix(const Signals& s, Eigen::Index values) {
 /// Adds the response to the samples, in blocks that are products of matrices.
 void filter(const Response& response, double time_step, const Sampling& sampling, Matrix& samples) {
   constexpr Eigen::Index block = 32;
-  Matrix coefficients(block, response.states.rows());
+  Eigen::MatrixXd coefficients(block, response.states.rows());
+  std::vector<double> times;
   for (Eigen::Index first = 0; first < samples.rows(); first += block) {
     const Eigen::Index count = std::min(block, samples.rows() - first);
-    const auto time = [&](Eigen::Index row) { return sampling.interval * static_cast<double>(first + row); };
+    times.clear();
+    for (Eigen::Index row = 0; row < count; ++row) times.push_back(sampling.interval * static_cast<double>(first + row));
     // Later states do not reach back to these samples.
     const Eigen::Index reach =
-        std::min(response.states.rows(), static_cast<Eigen::Index>(states_for(time(count - 1), time_step)));
-    for (Eigen::Index row = 0; row < count; ++row) {
-      response.coefficients(time(row), time_step, {&coefficients(row, 0), static_cast<std::size_t>(reach)});
-    }
+        std::min(response.states.rows(), static_cast<Eigen::Index>(states_for(times.back(), time_step)));
+    response.coefficients(times, time_step, {coefficients.data(), static_cast<std::size_t>(count * reach)});
     samples.middleRows(first, count).noalias() +=
-        coefficients.topLeftCorner(count, reach) * response.states.topRows(reach);
+        Eigen::Map<const Eigen::MatrixXd>(coefficients.data(), count, reach) * response.states.topRows(reach);
   }
 }
 

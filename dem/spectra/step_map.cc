@@ -94,22 +94,40 @@ MatrixXd lagged_map(const Operators& op, const DeformationParameters& d, double 
   return map;
 }
 
-/// By inverse iteration: the factor is known to round-off, so that twice is enough.
-Eigen::VectorXcd eigenvector_of(const MatrixXd& map, const Complex& factor) {
-  const double off = 1e-12 * map.cwiseAbs().maxCoeff();  // at the very factor there is no inverse
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(map.cast<Complex>() - (factor + off) * Eigen::MatrixXcd::Identity(map.rows(), map.cols()));
-  Eigen::VectorXcd x = Eigen::VectorXcd::LinSpaced(map.rows(), 1.0, 2.0);  // has a share in every mode but by accident
-  for (int k = 0; k < 2; ++k) x = inverse.solve(x).normalized();
+/// Eigenvector of a Hessenberg matrix by inverse iteration: the factor is known to round-off, so that twice is enough.
+Eigen::VectorXcd eigenvector_of(const MatrixXd& hessenberg, const Complex& factor) {
+  const Eigen::Index n = hessenberg.rows();
+  const double off = 1e-12 * hessenberg.cwiseAbs().maxCoeff();  // at the very factor there is no inverse
+  // Row-wise elimination of the one subdiagonal with the larger of two rows as pivot, L^-1 applied to x on the way.
+  const Eigen::MatrixXcd shifted = hessenberg.cast<Complex>() - (factor + off) * Eigen::MatrixXcd::Identity(n, n);
+  Eigen::VectorXcd x = Eigen::VectorXcd::LinSpaced(n, 1.0, 2.0);  // has a share in every mode but by accident
+  for (int pass = 0; pass < 2; ++pass) {
+    Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> u = shifted;
+    for (Eigen::Index k = 0; k + 1 < n; ++k) {
+      const Eigen::Index rest = n - k;
+      if (std::norm(u(k + 1, k)) > std::norm(u(k, k))) u.row(k).tail(rest).swap(u.row(k + 1).tail(rest)), std::swap(x[k], x[k + 1]);
+      const Complex share = u(k + 1, k) / u(k, k);
+      u.row(k + 1).tail(rest) -= share * u.row(k).tail(rest);
+      x[k + 1] -= share * x[k];
+    }
+    x = u.triangularView<Eigen::Upper>().solve(x).normalized();
+  }
   return x;
 }
 
 StepMode lagged_mode(const Operators& op, const DeformationParameters& deformation, double dt) {
-  const MatrixXd map = lagged_map(op, deformation, dt);
-  const Eigen::EigenSolver<MatrixXd> solver(map, false);
+  const Eigen::HessenbergDecomposition<MatrixXd> reduced(lagged_map(op, deformation, dt));
+  const MatrixXd hessenberg = reduced.matrixH();
+  const Eigen::EigenSolver<MatrixXd> solver(hessenberg, false);
   require_success(solver.info());
   Leader leader;
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) leader.look(solver.eigenvalues()[k], k);
-  return {leader.factor(), scaled_to_one(eigenvector_of(map, leader.factor()).head(op.overlap.cols()))};
+  const Eigen::VectorXcd x = eigenvector_of(hessenberg, leader.factor());
+  MatrixXd parts(x.size(), 2);  // the reflections are real
+  parts << x.real(), x.imag();
+  parts.applyOnTheLeft(reduced.matrixQ());
+  const Eigen::VectorXcd state = parts.col(0) + Complex(0.0, 1.0) * parts.col(1);
+  return {leader.factor(), scaled_to_one(state.head(op.overlap.cols()))};
 }
 
 }  // namespace

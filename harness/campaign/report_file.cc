@@ -63,11 +63,6 @@ std::string plotting_library() {
   return std::filesystem::exists(library) ? read_file(library) : std::string();
 }
 
-struct Drawing {
-  std::filesystem::path name;
-  std::string content;
-};
-
 }  // namespace
 
 void store_report(Hdf5Group& root, const reports::Report& report) {
@@ -111,9 +106,9 @@ reports::Report load_report(const std::filesystem::path& folder) {
   }
 }
 
-void write_report_files(const std::filesystem::path& folder, const reports::Report& report) {
+std::vector<ReportFile> draw_report(const reports::Report& report) {
   const std::string plotly = plotting_library();
-  std::vector<Drawing> drawings = {{"report.html", reports::render_html(report, {.plotly = plotly})}};
+  std::vector<ReportFile> drawings = {{"report.html", reports::render_html(report, {.plotly = plotly})}};
   for (const reports::Section& section : report.sections) {
     for (const reports::Figure& figure : section.figures) {
       // What a file says its figures are called must not lead out of the folder.
@@ -122,8 +117,12 @@ void write_report_files(const std::filesystem::path& folder, const reports::Repo
       drawings.push_back({stem.string() + ".csv", reports::figure_csv(figure, reports::kAllRows).text});
     }
   }
+  return drawings;
+}
+
+void write_report_files(const std::filesystem::path& folder, const std::vector<ReportFile>& files) {
   prepare_folder(folder / "figures");
-  for (const Drawing& d : drawings) write_file(folder / d.name, d.content);
+  for (const ReportFile& f : files) write_file(folder / f.name, f.content);
 }
 
 }  // namespace ddem::harness

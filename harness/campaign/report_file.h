@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "harness/io/hdf5.h"
 #include "reports/report.h"
@@ -19,8 +20,16 @@ void store_report(Hdf5Group& root, const reports::Report& report);
 /// program wrote it, or it is damaged.
 reports::Report load_report(const std::filesystem::path& folder);
 
-/// report.html, and each figure as figures/ID.svg and figures/ID.csv. Everything is drawn before the first
-/// file is written, and each file is replaced whole or not at all. Throws MachineError.
-void write_report_files(const std::filesystem::path& folder, const reports::Report& report);
+/// A file of a report, by its path inside the folder.
+struct ReportFile {
+  std::filesystem::path name;
+  std::string content;
+};
+
+/// report.html, and each figure as figures/ID.svg and figures/ID.csv.
+std::vector<ReportFile> draw_report(const reports::Report& report);
+
+/// Each file is replaced whole or not at all. Throws MachineError.
+void write_report_files(const std::filesystem::path& folder, const std::vector<ReportFile>& files);
 
 }  // namespace ddem::harness

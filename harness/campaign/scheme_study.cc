@@ -31,12 +31,19 @@ DeformationParameters strains(const StripCampaign& s, Scheme scheme, Correction 
   return d;
 }
 
-EnergyCurve follow_energy(const ddem::Assembly& a, const StripCampaign& s, const StudiedScheme& scheme, double fraction) {
+ContactParameters studied_contact(const StripCampaign& s) {
+  ContactParameters contact;
+  contact.normal_stiffness = s.normal_stiffness;
+  contact.stiffness_ratio = 0.5;
+  return contact;
+}
+
+/// `critical`: the step of rigid discs, s.
+EnergyCurve follow_energy(const ddem::Assembly& a, const StripCampaign& s, double critical, const StudiedScheme& scheme, double fraction) {
   SimulationInput in;
-  in.contact.normal_stiffness = s.normal_stiffness;
-  in.contact.stiffness_ratio = 0.5;
+  in.contact = studied_contact(s);
   in.deformation = scheme.deformation;
-  in.time_step = fraction * 2.0 / largest_frequency(a, in.contact, {});
+  in.time_step = fraction * critical;
   in.steps = kEnergySteps;
   in.energy_samples = 200;
   for (const double x : a.packing.x) in.initial.ux.push_back(kAmplitude * std::cos(std::numbers::pi * x / s.length));
@@ -61,8 +68,9 @@ std::vector<EnergyCurve> energy_curves(const StripCampaign& s) {
       implicit{"implicit F", strains(s, Scheme::implicit, Correction::full, softness)};
   StudiedScheme gradients{"implicit F, conjugate gradients", implicit.deformation};
   gradients.deformation.solver = StrainSolver::conjugate_gradients;
-  return {follow_energy(a, s, rigid, 0.2), follow_energy(a, s, lagged, 0.2), follow_energy(a, s, lagged, 0.05),
-          follow_energy(a, s, implicit, 0.2), follow_energy(a, s, gradients, 0.2)};
+  const double critical = 2.0 / largest_frequency(a, studied_contact(s), {});
+  const auto follow = [&](const StudiedScheme& scheme, double fraction) { return follow_energy(a, s, critical, scheme, fraction); };
+  return {follow(rigid, 0.2), follow(lagged, 0.2), follow(lagged, 0.05), follow(implicit, 0.2), follow(gradients, 0.2)};
 }
 
 /// The campaign's driven pulse in the lattice, P and shear.

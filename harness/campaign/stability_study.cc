@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <set>
 
 #include "dem/assembly/contacts.h"
 #include "dem/spectra/bloch.h"
@@ -50,11 +51,33 @@ struct Start {
   double motionless = 0.0;             ///< ln of the largest factor beyond 1 of strains that move no disc
 };
 
+/// Those of the periodic piece, one of all that the lattice's rotations and mirrors take into each other: they have the same
+/// factors.
+std::vector<WaveVector> waves_of_the_cell() {
+  std::vector<WaveVector> waves;
+  std::set<std::array<int, 3>> seen;
+  const double unit = 2.0 * std::numbers::pi / (kCells * kRadius);
+  for (int i = 0; i <= kCells / 2; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      // Phases along three bonds 120 degrees apart, in units of pi/kCells: the symmetries permute them, or turn all signs.
+      const auto sorted = [](std::array<int, 3> phases) {
+        for (int& phase : phases) phase = (phase % (2 * kCells) + 2 * kCells) % (2 * kCells);
+        std::sort(phases.begin(), phases.end());
+        return phases;
+      };
+      const int a = 2 * i, b = 2 * j - i, c = -i - 2 * j;
+      if (seen.insert(std::min(sorted({a, b, c}), sorted({-a, -b, -c}))).second) waves.push_back({0.5 * unit * i, unit * j / std::numbers::sqrt3});
+    }
+  }
+  return waves;
+}
+
 /// The assembly of a map with its predictions.
 class Subject {
  public:
   Subject(ddem::Assembly assembly, bool lattice, const ContactParameters& contact) : a_(std::move(assembly)), lattice_(lattice), contact_(contact) {
     critical_ = 2.0 / largest_frequency(a_, contact_, {});
+    if (lattice_) waves_ = waves_of_the_cell();
   }
   const ddem::Assembly& assembly() const { return a_; }
   const ContactParameters& contact() const { return contact_; }
@@ -73,17 +96,8 @@ class Subject {
   bool lattice_;
   ContactParameters contact_;
   double critical_ = 0.0;
+  std::vector<WaveVector> waves_;
 };
-
-/// Those of the periodic piece; z(-k) is the conjugate of z(k), so half of them.
-std::vector<WaveVector> waves_of_the_cell() {
-  std::vector<WaveVector> waves;
-  const double unit = 2.0 * std::numbers::pi / (kCells * kRadius);
-  for (int i = 0; i <= kCells / 2; ++i) {
-    for (int j = 0; j < kCells; ++j) waves.push_back({0.5 * unit * i, unit * j / std::numbers::sqrt3});
-  }
-  return waves;
-}
 
 /// Growing, decaying, or neither: motions that strain no disc, which some wave vectors have, keep their energy in every
 /// scheme, and say nothing of it.
@@ -103,7 +117,13 @@ Start Subject::worst_wave(const DeformationParameters& d, double dt) const {
   WaveMode worst{0.0, {}};
   WaveVector at;
   double motionless = 0.0;
-  for (const WaveVector& k : waves_of_the_cell()) {
+  for (const WaveVector& k : waves_) {
+    // Motions, which take most of the time, only where a factor may count.
+    const std::vector<Complex> factors = waves.multipliers(k, dt);
+    const bool counts = std::any_of(factors.begin(), factors.end(), [&](const Complex& z) {
+      return std::abs(z) > 1.0 || (std::abs(z - 1.0) >= kTranslationFactor && (worst.motion.size() == 0 || leads(z, worst.factor)));
+    });
+    if (!counts) continue;
     for (const WaveMode& m : waves.modes(k, dt)) {
       if (!(m.motion.norm() > 0.0)) motionless = std::max(motionless, std::log(std::abs(m.factor)));
       if (!(m.motion.norm() > 0.0) || std::abs(m.factor - 1.0) < kTranslationFactor) continue;
@@ -137,9 +157,13 @@ double Subject::largest_step(const DeformationParameters& d) const {
   if (!lattice_) {
     return ddem::critical_step(a_, contact_, d, {}).step.value_or(0.0);
   }
+  const HexagonalBloch waves = bloch(d);
+  const auto stays = [](const Complex& z) { return std::abs(z) < 1.0 + kNoGrowth || std::abs(z - 1.0) < kTranslationFactor; };
   const auto stable = [&](double dt) {
-    const Start worst = worst_wave(d, dt);
-    return std::abs(worst.factor) < 1.0 + kNoGrowth && worst.motionless < kNoGrowth;
+    return std::all_of(waves_.begin(), waves_.end(), [&](const WaveVector& k) {
+      const std::vector<Complex> factors = waves.multipliers(k, dt);
+      return std::all_of(factors.begin(), factors.end(), stays);
+    });
   };
   double low = 0.005 * critical_, high = 1.5 * critical_;
   if (!stable(low)) return 0.0;
@@ -165,14 +189,13 @@ Subject subject_of(const StripCampaign& s, const StabilityGrid& grid, const Stab
   return {make_assembly(p, bonds_within_gap(p, 0.3 * mean_radius(p)), 1.0, s.density, RattlerRule::peel), false, contact};
 }
 
-SimulationInput input_of(const Subject& subject, const DeformationParameters& d, double dt, const StabilityGrid& grid) {
+/// All but the time step and the start.
+SimulationInput input_of(const Subject& subject, const DeformationParameters& d) {
   SimulationInput in;
   in.contact = subject.contact();
   in.deformation = d;
-  in.time_step = dt;
   in.energy_samples = 1;
   if (d.scheme == Scheme::implicit) in.relaxations = strain_relaxations(subject.assembly(), subject.contact(), d);
-  if (grid.disturb) grid.disturb(in);
   return in;
 }
 
@@ -267,16 +290,17 @@ DeformationParameters strains(const StripCampaign& s, const StabilityKey& key, d
   return d;
 }
 
-StabilityPoint measure(const Subject& subject, const DeformationParameters& d, double softness, double fraction, const StabilityGrid& grid) {
-  const double dt = fraction * subject.critical_step();
-  const Start start = subject.worst(d, dt);
+/// `in` as input_of() gives it.
+StabilityPoint measure(const Subject& subject, SimulationInput in, double softness, double fraction, const StabilityGrid& grid) {
+  in.time_step = fraction * subject.critical_step();
+  const Start start = subject.worst(in.deformation, in.time_step);
   StabilityPoint point{softness, fraction, std::abs(start.factor) - 1.0, {}, false, {}, false};
   if (start.motionless > std::max(kNoGrowth, kDrowned * std::log(std::abs(start.factor)))) {
     point.predicted = std::expm1(start.motionless);
     point.unseen = true;
     return point;
   }
-  const SimulationInput in = input_of(subject, d, dt, grid);
+  if (grid.disturb) grid.disturb(in);
   point.measured = release(subject, start, in);
   point.noise_grew = noise_grows(subject, in);
   if (point.predicted > kNoiseGrowth) point.noise_should_grow = true;
@@ -387,8 +411,10 @@ StabilityMap map_stability(const StripCampaign& s, const StabilityGrid& grid, co
                    lattice ? grid.step_fraction : grid.random_step_fraction, {}, {}, {}};
   try {
     const Subject subject = subject_of(s, grid, key);
+    std::vector<SimulationInput> inputs;
+    for (const double softness : map.softness) inputs.push_back(input_of(subject, strains(s, key, softness)));
     for (const double fraction : map.step_fraction) {
-      for (const double softness : map.softness) map.points.push_back(measure(subject, strains(s, key, softness), softness, fraction, grid));
+      for (std::size_t k = 0; k < inputs.size(); ++k) map.points.push_back(measure(subject, inputs[k], map.softness[k], fraction, grid));
     }
     // Without an energy a random packing has no sharp limit: it flutters at any step.
     if (rigid || (!lattice && key.correction == Correction::normal && key.stiffness_ratio > 0.0)) return map;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "harness/campaign/report_content.h"
 #include "harness/campaign/report_file.h"
@@ -290,10 +291,15 @@ void prepare_folder(const std::filesystem::path& folder) {
 void write_results(const std::filesystem::path& folder, const CampaignResults& r, const std::vector<reports::Verdict>& verdicts,
                    const std::vector<reports::Section>& more) {
   const reports::Report report = report_of(r, verdicts, more);
+  // Drawn while results.h5 is written; the files come after it, so that a full disk leaves no report of other results.
+  std::future<std::vector<ReportFile>> rest = std::async(std::launch::async, [&] {
+    const Json summary = nightly::summary_json({r.campaign.title, r.wall_seconds, provenance(), verdicts});
+    std::vector<ReportFile> files{{"summary.json", to_text(summary)}, {"junit.xml", reports::render_junit("ddem validate", verdicts)}};
+    std::ranges::move(draw_report(report), std::back_inserter(files));
+    return files;
+  });
   write_hdf5(folder / "results.h5", r, report);
-  write_json(folder / "summary.json", nightly::summary_json({r.campaign.title, r.wall_seconds, provenance(), verdicts}));
-  write_file(folder / "junit.xml", reports::render_junit("ddem validate", verdicts));
-  write_report_files(folder, report);
+  write_report_files(folder, rest.get());
 }
 
 }  // namespace ddem::harness

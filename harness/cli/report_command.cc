@@ -19,7 +19,7 @@ int run(const Options& o) {
   const reports::Report report = load_report(o.folder);
   const std::string& output = o.output.empty() ? o.folder : o.output;
   try {
-    write_report_files(output, report);
+    write_report_files(output, draw_report(report));
   } catch (const std::invalid_argument& e) {  // what cannot be drawn was not written by ddem
     throw InputError(
         fmt::format("{}/results.h5: damaged: {}; run `ddem validate` again", o.folder, e.what()));

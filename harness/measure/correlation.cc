@@ -17,17 +17,18 @@ namespace {
 /// sum_n a(n) b(n + k) for k = -(a.size() - 1) .. b.size() - 1, by zero-padded Fourier transforms.
 std::vector<double> correlate(std::span<const double> a, std::span<const double> b) {
   const std::size_t lags = a.size() + b.size() - 1;
-  const std::size_t padded = std::bit_ceil(lags);
+  const std::size_t padded = std::min(std::bit_ceil(lags), 3 * std::bit_ceil((lags + 2) / 3));
   std::vector<double> a_padded(padded, 0.0), b_padded(padded, 0.0);
   std::copy(a.begin(), a.end(), a_padded.begin());
   std::copy(b.begin(), b.end(), b_padded.begin());
-  Eigen::FFT<double> fft;
+  // Keeps what it has computed for a length, which all signals of a run share.
+  thread_local Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(), Eigen::FFT<double>::HalfSpectrum);
   std::vector<std::complex<double>> a_hat, b_hat;
   fft.fwd(a_hat, a_padded);
   fft.fwd(b_hat, b_padded);
   for (std::size_t m = 0; m < a_hat.size(); ++m) b_hat[m] *= std::conj(a_hat[m]);
   std::vector<double> circular;
-  fft.inv(circular, b_hat);
+  fft.inv(circular, b_hat, static_cast<Eigen::Index>(padded));
   // Negative lags stand at the end of the circular result.
   std::rotate(circular.begin(), circular.end() - static_cast<std::ptrdiff_t>(a.size() - 1), circular.end());
   circular.resize(lags);

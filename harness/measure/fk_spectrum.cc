@@ -41,19 +41,20 @@ void check(std::span<const std::vector<double>> signals, double spacing, double 
 
 /// Windowed, zero-mean, padded signals over frequency: spectrum[x][frequency >= 0].
 std::vector<Column> over_frequency(std::span<const std::vector<double>> signals, std::size_t padded) {
-  Eigen::FFT<double> fft;
+  Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(), Eigen::FFT<double>::HalfSpectrum);
   const std::size_t samples = signals.front().size();
+  std::vector<double> window;
+  for (std::size_t n = 0; n < samples; ++n) window.push_back(hann(n, samples));
   std::vector<Column> result;
   for (std::size_t x = 0; x < signals.size(); ++x) {
     // The mean from the first value on: a constant signal is nothing but zeros then, without round-off.
     const double first = signals[x].front();
     double mean = 0.0;
     for (const double value : signals[x]) mean += (value - first) / static_cast<double>(samples);
-    Column time(padded), frequency;
-    for (std::size_t n = 0; n < samples; ++n) time[n] = hann(x, signals.size()) * hann(n, samples) * ((signals[x][n] - first) - mean);
-    fft.fwd(frequency, time);
-    frequency.resize(padded / 2 + 1);
-    result.push_back(std::move(frequency));
+    std::vector<double> time(padded);
+    const double here = hann(x, signals.size());
+    for (std::size_t n = 0; n < samples; ++n) time[n] = here * window[n] * ((signals[x][n] - first) - mean);
+    fft.fwd(result.emplace_back(), time);
   }
   return result;
 }

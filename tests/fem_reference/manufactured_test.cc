@@ -87,7 +87,7 @@ TEST_P(Manufactured, LoadThatActsForAWhileMovesAModeAsAnOscillator) {
   const double q = response(t) - response(t - pulse.duration);
   ASSERT_LE(dt, largest_step_for(pulse));
   std::vector<double> a(states_for(t, dt)), u(shape.size(), 0.0);
-  drive_coefficients(pulse, t, dt, a);
+  drive_coefficients(pulse, {&t, 1}, dt, a);
   Leapfrog leapfrog(stiffness, inverse_mass, {shape, {}}, dt);
   for (const double coefficient : a) {
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += coefficient * leapfrog.displacement()[i];

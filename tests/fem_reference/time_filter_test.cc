@@ -44,12 +44,12 @@ double driven(double w, double t) {
 
 struct Response {
   const char* name;
-  void (*coefficients)(double, double, std::span<double>);
+  void (*coefficients)(std::span<const double>, double, std::span<double>);
   double (*exact)(double w, double t);
   double (*size)(double t);
 };
 
-void driven_coefficients(double t, double dt, std::span<double> a) {
+void driven_coefficients(std::span<const double> t, double dt, std::span<double> a) {
   drive_coefficients(drive, t, dt, a);
 }
 
@@ -67,13 +67,25 @@ TEST_P(TimeFilter, IsTheClosedFormAtEveryFrequency) {
   // and 1e-16 of their sum, which is of order sqrt(z), a few 1e-14; 20 times that.
   for (const double t : {0.0, 1e-12, 1e-5, 0.3, 7.0, 40.0, 80.0, 81.0, 160.0, 1000.0}) {
     std::vector<double> a(states_for(t, 1.0));
-    GetParam().coefficients(t, 1.0, a);
+    GetParam().coefficients({&t, 1}, 1.0, a);
     for (int n = 0; n <= 100; ++n) {
       const double psi = 0.5 * pi * n / 100.0, w = 2.0 * std::sin(psi);
       double sum = 0.0;
       for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * std::cos(2.0 * static_cast<double>(k) * psi);
       ASSERT_NEAR(sum, GetParam().exact(w, t), 1e-12 * GetParam().size(t)) << "t " << t << " w " << w;
     }
+  }
+}
+
+/// Samples that are neighbours, or far apart, before and after the drive's end: bit by bit as each alone.
+TEST_P(TimeFilter, OfManyTimesIsThatOfEach) {
+  const std::vector<double> times{0.0, 3e-11, 1e-5, 0.7, 1.4, 79.9, 80.0, 80.1, 2.0, 300.0, 301.0};
+  const std::size_t count = states_for(301.0, 1.0);
+  std::vector<double> all(count * times.size()), one(count);
+  GetParam().coefficients(times, 1.0, all);
+  for (std::size_t m = 0; m < times.size(); ++m) {
+    GetParam().coefficients({&times[m], 1}, 1.0, one);
+    for (std::size_t k = 0; k < count; ++k) ASSERT_EQ(all[k * times.size() + m], one[k]) << times[m] << " " << k;
   }
 }
 
@@ -91,7 +103,7 @@ TEST_P(TimeFilter, IsExactForTheStatesOfALeapfrogAtAnyStep) {
     // In units where the step is 1, so that the drive's duration of 80 means something.
     const double dt = fraction * critical, t = 97.3;
     std::vector<double> a(states_for(t, 1.0)), sum(start.size(), 0.0);
-    GetParam().coefficients(t, 1.0, a);
+    GetParam().coefficients({&t, 1}, 1.0, a);
     Leapfrog leapfrog(stiffness, inverse_mass, {start, {}}, dt);
     for (std::size_t k = 0; k < a.size(); ++k) {
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += a[k] * leapfrog.displacement()[i];
@@ -117,8 +129,9 @@ TEST(TimeFilterLimits, StatesAreAFewMoreThanTheSteps) {
 
 TEST(TimeFilterLimits, RefusesAPulseThatTheStepDoesNotResolve) {
   std::vector<double> a(10);
-  EXPECT_THROW(drive_coefficients(drive, 1.0, 1.1 * largest_step_for(drive), a), std::invalid_argument);
-  drive_coefficients(drive, 1.0, largest_step_for(drive), a);
+  const double time = 1.0;
+  EXPECT_THROW(drive_coefficients(drive, {&time, 1}, 1.1 * largest_step_for(drive), a), std::invalid_argument);
+  drive_coefficients(drive, {&time, 1}, largest_step_for(drive), a);
 }
 
 TEST(TimeFilterLimits, PulseIsRaisedAndAtRestOutside) {
