@@ -3,6 +3,7 @@
 #include <Spectra/GenEigsSolver.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -40,25 +41,62 @@ Eigen::VectorXd start_vector(Eigen::Index size) {
   return v.normalized();
 }
 
-/// The largest eigenvalue of Lanczos' tridiagonal matrix, and the size of the last component of its unit eigenvector.
-std::pair<double, double> largest_of_tridiagonal(const std::vector<double>& diagonal, const std::vector<double>& beside) {
-  const auto n = static_cast<Eigen::Index>(diagonal.size());
-  const Eigen::Map<const Eigen::VectorXd> a(diagonal.data(), n), b(beside.data(), n - 1);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(a, b, Eigen::EigenvaluesOnly);
-  const double value = solver.eigenvalues()[n - 1];
-  // Inverse iteration from just above it, where no pivot of value - T vanishes.
-  const double shift = value + kRoundOff * static_cast<double>(n) * solver.eigenvalues().cwiseAbs().maxCoeff();
-  Eigen::VectorXd pivot(n), x = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index k = 0; k < n; ++k) pivot[k] = shift - a[k] - (k > 0 ? b[k - 1] * b[k - 1] / pivot[k - 1] : 0.0);
-  for (int pass = 0; pass < 3; ++pass) {
-    for (Eigen::Index k = 1; k < n; ++k) x[k] += x[k - 1] * b[k - 1] / pivot[k - 1];
-    x[n - 1] /= pivot[n - 1];
-    for (Eigen::Index k = n - 1; k-- > 0;) x[k] = (x[k] + b[k] * x[k + 1]) / pivot[k];
-    x.normalize();
+/// Lanczos' matrix, and what is asked of its largest eigenvalue as it grows.
+class GrowingTridiagonal {
+ public:
+  void add(double diagonal) { diagonal_.push_back(diagonal); }
+  void add_beside(double value) {
+    beside_.push_back(value);
+    reach_ = std::max(reach_, value);
   }
-  return {value, std::abs(x[n - 1])};
-}
+  std::size_t size() const { return diagonal_.size(); }
+  double first() const { return diagonal_.front(); }
+
+  /// The largest eigenvalue, which never falls as the matrix grows, and the last component of its unit eigenvector.
+  std::pair<double, double> largest() {
+    double high = *std::max_element(diagonal_.begin(), diagonal_.end()) + 2.0 * reach_;  // Gershgorin
+    high += kRoundOff * std::abs(high) + std::numeric_limits<double>::min();
+    if (!std::isfinite(high)) return {high, high};
+    low_ = std::max(low_, *std::max_element(diagonal_.begin(), diagonal_.end()));
+    while (high - low_ > 4.0 * kRoundOff * std::max(std::abs(high), std::abs(low_))) {
+      const double middle = 0.5 * (low_ + high);
+      if (middle <= low_ || middle >= high) break;
+      (factorise(middle) ? high : low_) = middle;
+    }
+    return {high, last_component(high)};
+  }
+
+ private:
+  /// Pivots of shift - T: all positive above the largest eigenvalue, and nowhere else.
+  bool factorise(double shift) {
+    pivot_.resize(size());
+    double pivot = 1.0, coupling = 0.0;
+    for (std::size_t k = 0; k < size(); ++k) {
+      pivot = shift - diagonal_[k] - coupling * coupling / pivot;
+      if (!(pivot > 0.0)) return false;
+      pivot_[k] = pivot;
+      if (k < beside_.size()) coupling = beside_[k];
+    }
+    return true;
+  }
+
+  /// Inverse iteration from just above the eigenvalue.
+  double last_component(double shift) {
+    while (!factorise(shift)) shift += kRoundOff * std::max(std::abs(shift), reach_);
+    const auto n = static_cast<Eigen::Index>(size());
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(n);
+    for (int pass = 0; pass < 3; ++pass) {
+      for (Eigen::Index k = 1; k < n; ++k) x[k] += x[k - 1] * beside_[k - 1] / pivot_[k - 1];
+      x[n - 1] /= pivot_[n - 1];
+      for (Eigen::Index k = n - 1; k-- > 0;) x[k] = (x[k] + beside_[k] * x[k + 1]) / pivot_[k];
+      x.normalize();
+    }
+    return std::abs(x[n - 1]);
+  }
+
+  std::vector<double> diagonal_, beside_, pivot_;
+  double low_ = -std::numeric_limits<double>::infinity(), reach_ = 0.0;
+};
 
 void require_success(Spectra::CompInfo info, const char* what) {
   if (info != Spectra::CompInfo::Successful) {
@@ -73,20 +111,21 @@ double largest_eigenvalue(const LinearOperator& op, const char* what) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(op), Eigen::EigenvaluesOnly);
     return solver.eigenvalues().maxCoeff();
   }
-  std::vector<double> diagonal, beside;
+  GrowingTridiagonal matrix;
   Eigen::VectorXd before = Eigen::VectorXd::Zero(op.size), now = start_vector(op.size), next;
   double rest = 0.0;
-  for (std::size_t look = kFirstLook; diagonal.size() < kMostSteps;) {
+  for (std::size_t look = kFirstLook; matrix.size() < kMostSteps;) {
     next = op.apply(now) - rest * before;
-    diagonal.push_back(next.dot(now));
-    next -= diagonal.back() * now;
+    const double diagonal = next.dot(now);
+    matrix.add(diagonal);
+    next -= diagonal * now;
     rest = next.norm();
-    if (diagonal.size() == look || !(rest > kRoundOff * std::abs(diagonal.front()))) {
-      const auto [value, last] = largest_of_tridiagonal(diagonal, beside);
+    if (matrix.size() == look || !(rest > kRoundOff * std::abs(matrix.first()))) {
+      const auto [value, last] = matrix.largest();
       if (rest * last <= residual_of(op.size) * std::abs(value)) return value;
       look += std::max<std::size_t>(kFirstLook / 4, look / 16);
     }
-    beside.push_back(rest);
+    matrix.add_beside(rest);
     before.swap(now);
     now = next / rest;
   }
