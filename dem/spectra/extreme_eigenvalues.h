@@ -20,12 +20,10 @@ struct LinearOperator {
   }
 };
 
-/// Largest eigenvalue of a symmetric operator, from below, by Lanczos' iteration without restarts. It keeps no basis: what
-/// round-off costs it in orthogonality adds copies of eigenvalues that are found, and delays others, but moves none (Paige,
-/// Lin. Alg. Appl. 34 (1980) 235). The residual is r = 1e-5 of the eigenvalue at most, and the eigenvalue then right to
-/// about r^2 or better; small problems are solved as matrices. `what` names it in errors: throws std::runtime_error if the
-/// iteration does not converge. Needs an unknown.
-double largest_eigenvalue(const LinearOperator& op, const char* what);
+/// Largest eigenvalue of a symmetric operator. The residual is r = 1e-5 of the eigenvalue at most, and the eigenvalue then
+/// right to about r^2 or better; small problems are solved as matrices. `what` names it in errors: throws
+/// std::runtime_error if the iteration does not converge. Needs an unknown.
+double largest_eigenvalue(LinearOperator op, const char* what);
 
 /// Largest magnitude of the eigenvalues of any operator; residual 1e-5 of it. Otherwise as above.
 double largest_magnitude(LinearOperator op, const char* what);
