@@ -160,5 +160,10 @@ DDEM_INLINE Triple gather(const double* base, const std::int32_t* disc) {
   return transpose([=](int l) DDEM_INLINE_LAMBDA { return base + kQuad * static_cast<std::ptrdiff_t>(disc[l]); });
 }
 
+/// One double from each of eight places.
+DDEM_INLINE Pack gather_each(const double* base, const std::int32_t* at) {
+  return Pack{base[at[0]], base[at[1]], base[at[2]], base[at[3]], base[at[4]], base[at[5]], base[at[6]], base[at[7]]};
+}
+
 }  // namespace
 }  // namespace ddem::DDEM_ISA

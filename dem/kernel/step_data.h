@@ -34,6 +34,8 @@ struct StepData {
   double* strain_next;
   double compliance_direct, compliance_coupling, compliance_shear;
   double keep_strain, new_strain;  ///< lagged: 1 - relaxation, relaxation
+  double* pull;                    ///< a stored half-bond: what its own disc adds to the bond's elongation, m
+  const std::int32_t* other_end;   ///< of the same bond: half_bond of the other disc
 
   // Implicit strains (kQuad a disc): f = (V C)^-1 S K C u (polynomial), or the residual (conjugate gradients).
   double* source;
@@ -65,6 +67,7 @@ struct StepFeatures {
   bool implicit = false;
   bool per_bond_stiffness = false;
   bool touching = false;  ///< no bond has arms of its own; with linear kinematics and one stiffness for all bonds
+  bool pulls = false;  ///< lagged, linear, without rotation, one evaluation a step: bonds read what the discs pull
   bool watched = false;  ///< note the fastest and the most strained disc
 };
 
@@ -74,6 +77,7 @@ using SliceFunction = void (*)(const StepData&, int begin, int end);
 struct StepKernels {
   SliceFunction step = nullptr;      ///< forces and kick; lagged: also the strains of the next evaluation
   SliceFunction drift = nullptr;     ///< displacements, by the velocities
+  SliceFunction pull = nullptr;      ///< where bonds read it: from the displacements and the strains to come, after every drift
   SliceFunction evaluate = nullptr;  ///< lagged: a further evaluation of the strains, nothing moves
   // Implicit, polynomial.
   SliceFunction source = nullptr;   ///< f from the displacements, and the forces of rigid discs

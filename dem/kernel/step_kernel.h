@@ -9,6 +9,9 @@
 // in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of relaxations from zero: a
 // polynomial of T (spectra/strain_polynomial.h), so that the effective stiffness is as symmetric as S K G, and conserves
 // its energy exactly.
+// Without rotation and with linear kinematics all that a bond reads of its other disc is one number: what that disc's
+// displacement and strain add to the bond's length. Where a disc writes it for each of its bonds (kPulls), the sweep over the
+// other ends gathers one double where it would take five, and forms products only that its own disc needs.
 // What a run does not use is not compiled into its kernel (if constexpr on the template parameters).
 
 #include "dem/kernel/bond_laws.h"
@@ -16,10 +19,12 @@
 namespace ddem::DDEM_ISA {
 namespace {
 
-template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain>
+template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain, bool kPulls = false>
 struct StepKernel {
   using State = typename Bond::State;
   static constexpr bool kDeformable = kStrain != StrainCoupling::none;
+  /// Stress by forces along the normals: its two shear stresses are the same.
+  static constexpr bool kCentral = !kRotation || kStrain == StrainCoupling::normal_only_stress;
 
   struct Sums {
     Pack fx{}, fy{}, moment{}, sxx{}, syy{}, sxy{};
@@ -58,6 +63,10 @@ struct StepKernel {
   DDEM_INLINE static State deformed(const StepData& d, int k, const Own& own) {
     if constexpr (!kDeformable) {
       return rigid(d, k, own.motion);
+    } else if constexpr (kPulls) {
+      State b = bond_at<Bond>(d, k);
+      b.u_n = load(d.pull + k) + gather_each(d.pull, d.other_end + k);  // the same bits from either end
+      return b;
     } else if constexpr (Kinematics::kLinear && kRotation && kStrain == StrainCoupling::full) {
       const Vector v = approach(bond_at<Bond>(d, k), own.strain, gather(d.strain, d.neighbour + k));
       const Triple other = gather(d.motion, d.neighbour + k);
@@ -82,13 +91,13 @@ struct StepKernel {
   DDEM_INLINE static void add(const StepData& d, const State& b, int k, Sums& sum) {
     const Pack f_n = Bond::normal(d, k) * b.u_n;
     Pack fx = f_n * b.nx, fy = f_n * b.ny;
-    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_normal_stress(b, dyad(b), f_n, sum);
+    if constexpr (kStress && kCentral) add_central_stress(b, fx, fy, sum);
     if constexpr (kRotation) {
       const Pack f_t = Bond::shear(d, k) * b.u_t;
       fx -= f_t * b.ny;
       fy += f_t * b.nx;
       if constexpr (kForce) sum.moment += b.stretch * f_t;
-      if constexpr (kStress && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, sum);
+      if constexpr (kStress && !kCentral) add_stress(b, fx, fy, sum);
     }
     if constexpr (kForce) {
       sum.fx += fx;
@@ -96,24 +105,30 @@ struct StepKernel {
     }
   }
 
-  /// V_p sigma_p / r = sum_c s n (x) F_c; sxy holds the sum of both shear stresses.
+  /// V_p sigma_p / r = sum_c s n (x) F_c; sxy holds the sum of both shear stresses, or one of two that are the same.
   DDEM_INLINE static void add_stress(const State& b, Pack fx, Pack fy, Sums& sum) {
     const Pack sx = b.stretch * b.nx, sy = b.stretch * b.ny;
     sum.sxx += sx * fx;
     sum.syy += sy * fy;
     sum.sxy += sx * fy + sy * fx;
   }
+  DDEM_INLINE static void add_central_stress(const State& b, Pack fx, Pack fy, Sums& sum) {
+    const Pack sx = b.stretch * fx, sy = b.stretch * fy;
+    sum.sxx += sx * b.nx;
+    sum.syy += sy * b.ny;
+    sum.sxy += sx * b.ny;
+  }
   DDEM_INLINE static void add_normal_stress(const State& b, const Dyad& n, Pack f_n, Sums& sum) {
     const Pack g = b.stretch * f_n;
     sum.sxx += g * n.xx;
     sum.syy += g * n.yy;
-    sum.sxy += g * n.xy;
+    sum.sxy += (kCentral ? g : g + g) * n.xy;
   }
 
   /// r eps_p = r D : sigma_p.
   DDEM_INLINE static Triple strain_from(const StepData& d, const Sums& sum) {
     return {d.compliance_direct * sum.sxx + d.compliance_coupling * sum.syy,
-            d.compliance_coupling * sum.sxx + d.compliance_direct * sum.syy, 0.5 * d.compliance_shear * sum.sxy};
+            d.compliance_coupling * sum.sxx + d.compliance_direct * sum.syy, (kCentral ? 1.0 : 0.5) * d.compliance_shear * sum.sxy};
   }
 
   /// The largest of a sweep, for whoever watches what may close: compiled in where kWatched.
@@ -163,6 +178,20 @@ struct StepKernel {
       if constexpr (kRotation) moved.c = d.dt * load(d.omega + p);
       add_triple(d.motion, p, moved);
     }
+  }
+
+  /// What the discs add to the elongation of their bonds, with the strains to come: -n.(u + s r eps.n).
+  static void pull(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    const auto turned = [](const Triple& t) DDEM_INLINE_LAMBDA { return Triple{-t.a, -t.b, -t.c}; };
+    for_slices(
+        d, begin, end, [&](int p) DDEM_INLINE_LAMBDA { return Own{turned(load_triple(d.motion, p)), turned(load_triple(d.strain_next, p))}; },
+        [&d](int k, const Own& own, Sums&) DDEM_INLINE_LAMBDA {
+          const State b = bond_at<Bond>(d, k);
+          const Vector v = boundary(b, own.strain);
+          store(d.pull + k, b.nx * (own.motion.a + v.x) + b.ny * (own.motion.b + v.y));
+        },
+        [](int, const Own&, const Sums&) {});
   }
 
   DDEM_INLINE static Triple combine(double wx, const Triple& x, double wy, const Triple& y) {
@@ -341,7 +370,7 @@ struct StepKernel {
     StepKernels k;
     k.drift = &drift;
     if constexpr (kDeformable) {
-      if constexpr (Kinematics::kLinear) {
+      if constexpr (Kinematics::kLinear && !kPulls) {
         if (f.implicit) {
           k.step = &step<false, kWatched>;
           k.source = &source, k.iterate = &iterate<false>, k.last_iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
@@ -350,7 +379,11 @@ struct StepKernel {
         }
       }
       k.step = &step<true, kWatched>;
-      k.evaluate = &evaluate<kWatched>;
+      if constexpr (kPulls) {
+        k.pull = &pull;
+      } else {
+        k.evaluate = &evaluate<kWatched>;
+      }
     } else {
       k.step = &step<false, kWatched>;
     }
@@ -358,36 +391,5 @@ struct StepKernel {
   }
 };
 
-template <class Kinematics, class Bond, bool kRotation>
-StepKernels choose_strain(const StepFeatures& f) {
-  switch (f.strain) {
-    case StrainCoupling::none: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::none>::kernels(f);
-    case StrainCoupling::normal: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal>::kernels(f);
-    case StrainCoupling::full: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::full>::kernels(f);
-    case StrainCoupling::normal_only_stress:
-      return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal_only_stress>::kernels(f);
-  }
-  return {};
-}
-
-template <class Kinematics, class Bond>
-StepKernels choose_rotation(const StepFeatures& f) {
-  return f.rotation ? choose_strain<Kinematics, Bond, true>(f) : choose_strain<Kinematics, Bond, false>(f);
-}
-
-template <class Kinematics>
-StepKernels choose_bonds(const StepFeatures& f) {
-  if (f.per_bond_stiffness) return choose_rotation<Kinematics, BondStiffness>(f);
-  if constexpr (Kinematics::kLinear) {
-    if (f.touching) return choose_rotation<Kinematics, UniformStiffness<TouchingBonds>>(f);
-  }
-  return choose_rotation<Kinematics, UniformStiffness<StretchedBonds>>(f);
-}
-
 }  // namespace
-
-StepKernels choose(const StepFeatures& f) {
-  return f.nonlinear ? choose_bonds<NonlinearKinematics>(f) : choose_bonds<LinearKinematics>(f);
-}
-
 }  // namespace ddem::DDEM_ISA

@@ -30,6 +30,12 @@ std::vector<int> tapped(const SimulationInput& input, const std::vector<int>& po
   return places;
 }
 
+/// Whether bonds read what their other ends pull instead of displacements and strains.
+bool pulls(const SimulationInput& in) {
+  return in.deformation.scheme == Scheme::lagged && in.deformation.evaluations == 1 && !in.contact.has_rotation() &&
+         in.contact.kinematics == Kinematics::linear;
+}
+
 bool held(const std::vector<std::uint8_t>& mask, std::size_t disc) { return !mask.empty() && mask[disc]; }
 
 }  // namespace
@@ -39,6 +45,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       discs_(a.size()),
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
+      pulls_(pulls(input)),
       drive_(input.drive),
       implicit_(input.deformation.scheme == Scheme::implicit),
       assembly_(a),
@@ -61,13 +68,16 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
     for (auto* array : {&fastest_, &most_strained_}) array->assign(static_cast<std::size_t>(bonds_.slices), 0.0);
   }
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform,
-                           bonds_.stretch.empty(), watch_.has_value()},
+                           bonds_.stretch.empty(), pulls_, watch_.has_value()},
                           isa);
   automatic_steps_ = input.steps_a_sweep == 0;
   steps_at_once_ = automatic_steps_ ? worthwhile_steps() : input.steps_a_sweep;
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   if (input.follow_front) find_fronts();
+  if (pulls_) bonds_.neighbour = {};
+  bind();
+  pull(0, 0, bonds_.slices);
   start_leapfrog();
   begin_step();
 }
@@ -84,6 +94,10 @@ void Stepper::size_arrays(const SimulationInput& input) {
   if (implicit_) source_.assign(kQuad * padded_, 0.0);
   if (implicit_ && input.deformation.solver == StrainSolver::polynomial) {
     for (auto* array : {&rigid_fx_, &rigid_fy_, &rigid_moment_}) array->assign(padded_, 0.0);
+  }
+  if (pulls_) {
+    other_end_ = other_ends(assembly_.bonds, position_, bonds_);
+    pull_.assign(other_end_.size(), 0.0);
   }
   if (rotation_ && input.contact.kinematics == Kinematics::nonlinear) {
     for (auto* array : {&previous_dx_, &previous_dy_, &previous_rotation_, &slip_}) {
@@ -260,7 +274,6 @@ void Stepper::load(const InitialState& s) {
   if (rotation_) copy(times_radius(s.theta), motion_, kQuad, 2);
   copy(s.vx, vx_, 1, 0), copy(s.vy, vy_, 1, 0), copy(times_radius(s.omega), omega_, 1, 0);
   if (drive_) impose(0.0, motion_);
-  bind();
 }
 
 /// The step kernel takes v_{n-1/2} to v_{n+1/2}. From v_0 it needs v_{-1/2} = v_0 - dt a_0 / 2; a_0 comes from one step
@@ -302,7 +315,6 @@ bool Stepper::finish_stage() {
   }
   if (watch_) finish_contacts();
   step_number_ += steps_taken_ = steps_due_;
-  if (drive_ && steps_taken_ == 1) impose(static_cast<double>(step_number_) * data_.dt, motion_);
   // The motion of a lagged step has written the strains to come.
   if (!implicit_ && steps_taken_ % 2 == 1) swap_strains();
   begin_step();
@@ -325,6 +337,7 @@ void Stepper::bind() {
   d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data();
   d.kick_theta = kick_theta_.empty() ? d.kick_x : kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
+  d.pull = pull_.data(), d.other_end = other_end_.data();
   d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();

@@ -131,6 +131,7 @@ void Stepper::finish_contacts() {
     const double fx = c.force() * c.nx, fy = c.force() * c.ny;
     push(c.i, fx, fy);
     push(c.j, -fx, -fy);
+    for (const int p : {c.i, c.j}) pull(0, p / kLanes, p / kLanes + 1);
   }
   double distance = data_.dt * std::sqrt(fastest);
   if (drive_) {

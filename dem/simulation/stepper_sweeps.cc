@@ -24,7 +24,7 @@ std::size_t Stepper::array_bytes() const {
   const auto bytes = [](const auto&... arrays) { return (... + (arrays.size() * sizeof(arrays[0]))); };
   return bytes(bonds_.row_begin, bonds_.neighbour, bonds_.nx, bonds_.ny, bonds_.stretch, bonds_.length, bonds_.stiffness, position_,
                motion_, strain_, strain_next_, source_, vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_, rigid_fx_, rigid_fy_,
-               rigid_moment_, previous_dx_, previous_dy_, previous_rotation_, slip_);
+               rigid_moment_, previous_dx_, previous_dy_, previous_rotation_, slip_, pull_, other_end_);
 }
 
 int Stepper::worthwhile_steps() const {
@@ -49,7 +49,7 @@ void Stepper::advance(int thread) {
   const int begin = range_begin_[thread], end = range_begin_[thread + 1];
   if (begin >= end) return;
   if (stage_ == Stage::seams) {
-    if (!drifts_with_kick()) return kernels_.drift(data_, begin, end);
+    if (!drifts_with_kick()) return drift(0, begin, end);
     if (thread + 1 < threads()) close_seam(end);
   } else if (stage_ != Stage::motion) {
     due_(data_, begin, end);
@@ -99,17 +99,22 @@ void Stepper::close_seam(int slice) {
   }
 }
 
-/// After step `level` of a sweep; of one that takes several, what would happen between them.
+/// After step `level` of a sweep: displacements, those of a driven edge at t_{n+1}, and what reads them before the next.
 void Stepper::drift(int level, int begin, int end) {
   kernels_.drift(data_, begin, end);
-  if (steps_due_ == 1) return;
   const int first = begin * kLanes, last = end * kLanes;
   if (drive_) {
     const double value = drive_->displacement(static_cast<double>(step_number_ + level + 1) * data_.dt);
     const auto from = std::lower_bound(driven_places_.begin(), driven_places_.end(), first);
     for (auto place = from; place != driven_places_.end() && *place < last; ++place) motion_[driven_component(*place)] = value;
   }
-  taps_.keep(motion_.data(), level, first, last);
+  pull(level, begin, end);
+  if (steps_due_ > 1) taps_.keep(motion_.data(), level, first, last);
+}
+
+/// With the strains that step `level` of a sweep has written.
+void Stepper::pull(int level, int begin, int end) {
+  if (kernels_.pull) kernels_.pull(data_of(level), begin, end);
 }
 
 AlignedVector<double> Stepper::motion_before() const {
