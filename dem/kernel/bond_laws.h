@@ -28,7 +28,7 @@ struct Vector {
 /// Bonds with arms of their own, which are zero where a row is filled up.
 struct StretchedBonds {
   using State = BondState<Pack>;
-  DDEM_INLINE static Pack stretch(const StepData& d, int k) { return load(d.stretch + k); }
+  DDEM_INLINE static Pack stretch(const StepData& d, int k) { return load_once(d.stretch + k); }
   /// By how much the two discs roll apart.
   DDEM_INLINE static Pack roll(const State& b, Pack rotations) { return b.stretch * rotations; }
 };
@@ -52,7 +52,7 @@ struct BondStiffness : StretchedBonds {
 
 template <class Bond>
 DDEM_INLINE typename Bond::State bond_at(const StepData& d, int k) {
-  return {load(d.nx + k), load(d.ny + k), Bond::stretch(d, k), Pack{}, Pack{}};
+  return {load_once(d.nx + k), load_once(d.ny + k), Bond::stretch(d, k), Pack{}, Pack{}};
 }
 
 /// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; u: displacement of the

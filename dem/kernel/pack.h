@@ -21,6 +21,14 @@ constexpr int kWidth = 8;  // kLanes
 using Pack = double __attribute__((vector_size(64)));
 
 DDEM_INLINE Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p); }
+/// Into a register that stays: for every use the compiler would read memory again, a load as dear as a product.
+DDEM_INLINE Pack load_once(const double* p) {
+  Pack v = load(p);
+#ifdef __AVX512F__
+  asm("" : "+v"(v));
+#endif
+  return v;
+}
 DDEM_INLINE void store(double* p, Pack v) { *reinterpret_cast<Pack*>(p) = v; }
 DDEM_INLINE Pack all(double x) { return Pack{x, x, x, x, x, x, x, x}; }
 
