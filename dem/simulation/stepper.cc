@@ -30,12 +30,6 @@ std::vector<int> tapped(const SimulationInput& input, const std::vector<int>& po
   return places;
 }
 
-/// Whether bonds read what their other ends pull instead of displacements and strains.
-bool pulls(const SimulationInput& in) {
-  return in.deformation.scheme == Scheme::lagged && in.deformation.evaluations == 1 && !in.contact.has_rotation() &&
-         in.contact.kinematics == Kinematics::linear;
-}
-
 bool held(const std::vector<std::uint8_t>& mask, std::size_t disc) { return !mask.empty() && mask[disc]; }
 
 }  // namespace
@@ -45,7 +39,6 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
       discs_(a.size()),
       rotation_(input.contact.has_rotation()),
       deformable_(input.deformation.active()),
-      pulls_(pulls(input)),
       drive_(input.drive),
       implicit_(input.deformation.scheme == Scheme::implicit),
       assembly_(a),
@@ -55,6 +48,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   const bool uniform = input.contact.uniform();
   bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
                        input.contact.kinematics == Kinematics::nonlinear);
+  pulls_ = worth_pulling(input);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
   range_begin_.resize(static_cast<std::size_t>(std::min(input.threads, std::max(1, bonds_.slices))) + 1);
   share(bonds_.slices);
@@ -95,10 +89,7 @@ void Stepper::size_arrays(const SimulationInput& input) {
   if (implicit_ && input.deformation.solver == StrainSolver::polynomial) {
     for (auto* array : {&rigid_fx_, &rigid_fy_, &rigid_moment_}) array->assign(padded_, 0.0);
   }
-  if (pulls_) {
-    other_end_ = other_ends(assembly_.bonds, position_, bonds_);
-    pull_.assign(other_end_.size(), 0.0);
-  }
+  if (pulls_) size_pulls();
   if (rotation_ && input.contact.kinematics == Kinematics::nonlinear) {
     for (auto* array : {&previous_dx_, &previous_dy_, &previous_rotation_, &slip_}) {
       array->assign(bonds_.neighbour.size(), 0.0);
@@ -179,6 +170,11 @@ void Stepper::relax() {
   data_.of_coupling = first ? w * before : w;
 }
 
+SliceFunction Stepper::iteration() const {
+  if (stages_done_ == 1) return kernels_.first_iterate;
+  return stages_done_ + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate;
+}
+
 void Stepper::begin_stage(Stage stage) {
   stage_ = stage;
   if (watch_ && (stage == Stage::evaluate || stage == Stage::motion)) {
@@ -189,7 +185,7 @@ void Stepper::begin_stage(Stage stage) {
   switch (stage) {
     case Stage::evaluate: due_ = kernels_.evaluate; break;
     case Stage::source: due_ = kernels_.source; break;
-    case Stage::iterate: due_ = stages_done_ + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate; break;
+    case Stage::iterate: due_ = iteration(); break;
     case Stage::residual: due_ = kernels_.residual; break;
     case Stage::apply: due_ = kernels_.apply; break;
     case Stage::advance: due_ = kernels_.advance; break;
@@ -323,7 +319,9 @@ bool Stepper::finish_stage() {
 
 void Stepper::swap_strains() {
   std::swap(strain_, strain_next_);
+  std::swap(press_, press_next_);
   data_.strain = strain_.data(), data_.strain_next = strain_next_.data();
+  data_.press = press_.data(), data_.press_next = press_next_.data();
 }
 
 void Stepper::bind() {
@@ -337,7 +335,8 @@ void Stepper::bind() {
   d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data();
   d.kick_theta = kick_theta_.empty() ? d.kick_x : kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
-  d.pull = pull_.data(), d.other_end = other_end_.data();
+  d.pull = pull_.data(), d.press = press_.data(), d.press_next = press_next_.data(), d.other_end = other_end_.data();
+  d.dyad_xx = dyad_xx_.data(), d.dyad_yy = dyad_yy_.data(), d.dyad_xy = dyad_xy_.data();
   d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();

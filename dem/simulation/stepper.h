@@ -83,6 +83,7 @@ class Stepper {
   void follow_front();
   void share(int front);
   void relax();
+  SliceFunction iteration() const;
   // Kick and drift, stepper_sweeps.cc.
   int worthwhile_steps() const;
   bool drifts_with_kick() const;
@@ -91,6 +92,8 @@ class Stepper {
   void close_seam(int slice);
   void drift(int level, int begin, int end);
   void pull(int level, int begin, int end);
+  bool worth_pulling(const SimulationInput& input) const;
+  void size_pulls();
   std::size_t driven_component(int place) const { return static_cast<std::size_t>(kQuad * place + (drive_->direction == Direction::x ? 0 : 1)); }
   // New contacts, stepper_contacts.cc.
   void look_for_contacts();
@@ -113,7 +116,7 @@ class Stepper {
   AlignedVector<double> kick_x_, kick_y_, kick_theta_;  // the others empty where they would be kick_x_
   AlignedVector<double> rigid_fx_, rigid_fy_, rigid_moment_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
-  AlignedVector<double> pull_;
+  AlignedVector<double> pull_, press_, press_next_, dyad_xx_, dyad_yy_, dyad_xy_;
   AlignedVector<std::int32_t> other_end_;
   StepData data_{};
   StepKernels kernels_;

@@ -51,6 +51,8 @@ const Case cases[] = {
     {"LaggedWithoutShearDriven", Source::drive, 0.0, strains(Scheme::lagged)},
     {"LaggedThrice", Source::drive, 0.25, strains(Scheme::lagged, StrainSolver::polynomial, 3)},
     {"Implicit", Source::column, 0.25, strains(Scheme::implicit)},
+    {"ImplicitWithoutShear", Source::column, 0.0, strains(Scheme::implicit)},
+    {"ImplicitWithoutShearDriven", Source::drive, 0.0, strains(Scheme::implicit)},
     {"ImplicitDriven", Source::drive, 0.25, strains(Scheme::implicit)},
     {"Gradients", Source::column, 0.25, strains(Scheme::implicit, StrainSolver::conjugate_gradients)}};
 

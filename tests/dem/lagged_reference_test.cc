@@ -77,7 +77,8 @@ class Reference {
     std::vector<double> fx(a_.size()), fy(a_.size());
     std::vector<Strain> stress(a_.size());
     for (const Bond& b : bonds_) {
-      const double u_n = b.nx * (ux_[b.j] - ux_[b.i]) + b.ny * (uy_[b.j] - uy_[b.i]) - reach(b.i, b.arm_i, b) - reach(b.j, b.arm_j, b) + b.gap;
+      const double rigid = b.nx * (ux_[b.j] - ux_[b.i]) + b.ny * (uy_[b.j] - uy_[b.i]) + b.gap;
+      const double u_n = rigid - reach(b.i, b.arm_i, b) - reach(b.j, b.arm_j, b);
       if (b.pushes_only && u_n >= 0.0) continue;
       pushed_ = pushed_ || b.pushes_only;
       const double f = b.stiffness * u_n;
