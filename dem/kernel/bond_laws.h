@@ -28,7 +28,7 @@ struct Vector {
 /// Bonds with arms of their own, which are zero where a row is filled up.
 struct StretchedBonds {
   using State = BondState<Pack>;
-  DDEM_INLINE static Pack stretch(const StepData& d, int k) { return load(d.stretch + k); }
+  DDEM_INLINE static Pack stretch(const StepData& d, int k) { return load_once(d.stretch + k); }
   /// By how much the two discs roll apart.
   DDEM_INLINE static Pack roll(const State& b, Pack rotations) { return b.stretch * rotations; }
 };
@@ -52,7 +52,7 @@ struct BondStiffness : StretchedBonds {
 
 template <class Bond>
 DDEM_INLINE typename Bond::State bond_at(const StepData& d, int k) {
-  return {load(d.nx + k), load(d.ny + k), Bond::stretch(d, k), Pack{}, Pack{}};
+  return {load_once(d.nx + k), load_once(d.ny + k), Bond::stretch(d, k), Pack{}, Pack{}};
 }
 
 /// theory section 1: small displacement, the geometry of the start. `k`: the row's first half-bond; u: displacement of the
@@ -102,28 +102,33 @@ struct NonlinearKinematics {
   }
 };
 
-/// How far the boundaries of the two discs move towards each other at the contact: (a_i eps_i + a_j eps_j).n, whose normal
+/// How far a disc's strain moves its boundary at the contact: a eps.n.
+template <class Stretch>
+DDEM_INLINE Vector boundary(const BondState<Stretch>& b, const Triple& e) {
+  return {b.stretch * (e.a * b.nx + e.c * b.ny), b.stretch * (e.c * b.nx + e.b * b.ny)};
+}
+
+/// How far the boundaries of the two discs move towards each other there: (a_i eps_i + a_j eps_j).n, whose normal
 /// and tangential parts a n.eps.n and a t.eps.n are taken from the overlaps. The same bits from either end.
 template <class Stretch>
 DDEM_INLINE Vector approach(const BondState<Stretch>& b, const Triple& own, const Triple& other) {
-  const Pack xx = own.a + other.a, yy = own.b + other.b, xy = own.c + other.c;
-  return {b.stretch * (xx * b.nx + xy * b.ny), b.stretch * (xy * b.nx + yy * b.ny)};
+  return boundary(b, Triple{own.a + other.a, own.b + other.b, own.c + other.c});
 }
 
-/// n (x) n: its diagonal, and twice the product of the components.
+/// n (x) n.
 struct Dyad {
   Pack xx, yy, xy;
 };
 template <class Stretch>
 DDEM_INLINE Dyad dyad(const BondState<Stretch>& b) {
-  const Pack xy = b.nx * b.ny;
-  return {b.nx * b.nx, b.ny * b.ny, xy + xy};
+  return {b.nx * b.nx, b.ny * b.ny, b.nx * b.ny};
 }
 
 /// The normal part of that.
 template <class Stretch>
 DDEM_INLINE Pack normal_approach(const BondState<Stretch>& b, const Dyad& n, const Triple& own, const Triple& other) {
-  return b.stretch * (n.xx * (own.a + other.a) + n.yy * (own.b + other.b) + n.xy * (own.c + other.c));
+  const Pack xy = own.c + other.c;
+  return b.stretch * (n.xx * (own.a + other.a) + n.yy * (own.b + other.b) + n.xy * (xy + xy));
 }
 
 }  // namespace

@@ -21,6 +21,14 @@ constexpr int kWidth = 8;  // kLanes
 using Pack = double __attribute__((vector_size(64)));
 
 DDEM_INLINE Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p); }
+/// Into a register that stays: for every use the compiler would read memory again, a load as dear as a product.
+DDEM_INLINE Pack load_once(const double* p) {
+  Pack v = load(p);
+#ifdef __AVX512F__
+  asm("" : "+v"(v));
+#endif
+  return v;
+}
 DDEM_INLINE void store(double* p, Pack v) { *reinterpret_cast<Pack*>(p) = v; }
 DDEM_INLINE Pack all(double x) { return Pack{x, x, x, x, x, x, x, x}; }
 
@@ -158,6 +166,11 @@ DDEM_INLINE Triple load_triple(const double* base, int p) {
 }
 DDEM_INLINE Triple gather(const double* base, const std::int32_t* disc) {
   return transpose([=](int l) DDEM_INLINE_LAMBDA { return base + kQuad * static_cast<std::ptrdiff_t>(disc[l]); });
+}
+
+/// One double from each of eight places.
+DDEM_INLINE Pack gather_each(const double* base, const std::int32_t* at) {
+  return Pack{base[at[0]], base[at[1]], base[at[2]], base[at[3]], base[at[4]], base[at[5]], base[at[6]], base[at[7]]};
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void fill_up(bool stiffness, bool lengths, bool stretch, SlicedBonds& s) {
     for (std::int32_t k = s.row_begin[slice] * kLanes; k < s.row_begin[slice + 1] * kLanes; ++k)
       s.neighbour[k] = slice * kLanes + k % kLanes;
   }
-  s.nx.assign(half_bonds, stretch ? 1.0 : 0.0);
+  s.nx.assign(half_bonds, lengths ? 1.0 : 0.0);  // a length needs a direction
   s.ny.assign(half_bonds, 0.0);
   if (stretch) s.stretch.assign(half_bonds, 0.0);
   if (lengths) s.length.assign(half_bonds, 1.0);
@@ -76,6 +76,18 @@ SlicedBonds slice_bonds(const Bonds& b, const std::vector<int>& position,
     put(c, j, i, -1.0);
   }
   return s;
+}
+
+AlignedVector<std::int32_t> other_ends(const Bonds& b, const std::vector<int>& position, const SlicedBonds& s) {
+  AlignedVector<std::int32_t> other(s.neighbour.size());
+  std::iota(other.begin(), other.end(), 0);
+  std::vector<std::int32_t> bonds_at(static_cast<std::size_t>(s.slices) * kLanes, 0);
+  const auto next = [&](int at) { return (s.row_begin[at / kLanes] + bonds_at[at]++) * kLanes + at % kLanes; };  // as they were put
+  for (std::size_t c = 0; c < b.size(); ++c) {
+    const std::int32_t i = next(position[b.i[c]]), j = next(position[b.j[c]]);
+    other[i] = j, other[j] = i;
+  }
+  return other;
 }
 
 int SlicedBonds::reach() const {

@@ -37,6 +37,9 @@ struct SlicedBonds {
 /// stiffnesses nor lengths, arms that are radii are left out.
 SlicedBonds slice_bonds(const Bonds& bonds, const std::vector<int>& position, const std::vector<double>& stiffness, bool lengths);
 
+/// Of every stored half-bond the one that the same bond has at its other end; what fills up a row is its own.
+AlignedVector<std::int32_t> other_ends(const Bonds& bonds, const std::vector<int>& position, const SlicedBonds& sliced);
+
 /// An order of the discs in which neighbours are near in memory, bands across the strip's short side, and discs of a slice
 /// have about as many bonds.
 /// Returns position[d].

@@ -34,10 +34,14 @@ struct StepData {
   double* strain_next;
   double compliance_direct, compliance_coupling, compliance_shear;
   double keep_strain, new_strain;  ///< lagged: 1 - relaxation, relaxation
+  double* pull;                    ///< a stored half-bond: what its own disc adds to the bond's elongation, m; implicit: rigid
+  const std::int32_t* other_end;   ///< of the same bond: half_bond of the other disc
 
   // Implicit strains (kQuad a disc): f = (V C)^-1 S K C u (polynomial), or the residual (conjugate gradients).
   double* source;
   double of_strain, of_source, of_coupling;  ///< polynomial: the next approximation is of_strain eps + of_source f - of_coupling T eps
+  double *press, *press_next;      ///< and by how much its strain shortens the bond: of the strains in and out
+  const double *dyad_xx, *dyad_yy, *dyad_xy;  ///< s n (x) n
   double *rigid_fx, *rigid_fy, *rigid_moment;  ///< polynomial: forces of rigid discs, moment over r
 
   // Conjugate gradients.
@@ -65,6 +69,7 @@ struct StepFeatures {
   bool implicit = false;
   bool per_bond_stiffness = false;
   bool touching = false;  ///< no bond has arms of its own; with linear kinematics and one stiffness for all bonds
+  bool pulls = false;  ///< linear, without rotation, lagged in one evaluation or a polynomial: bonds read what the discs pull
   bool watched = false;  ///< note the fastest and the most strained disc
 };
 
@@ -74,10 +79,13 @@ using SliceFunction = void (*)(const StepData&, int begin, int end);
 struct StepKernels {
   SliceFunction step = nullptr;      ///< forces and kick; lagged: also the strains of the next evaluation
   SliceFunction drift = nullptr;     ///< displacements, by the velocities
+  SliceFunction pull = nullptr;      ///< where bonds read it: from the displacements (lagged: and the strains to come), after every drift
+  SliceFunction press = nullptr;     ///< the same from the strains to come, where something else than the kernels changed them
   SliceFunction evaluate = nullptr;  ///< lagged: a further evaluation of the strains, nothing moves
   // Implicit, polynomial.
   SliceFunction source = nullptr;   ///< f from the displacements, and the forces of rigid discs
-  SliceFunction iterate = nullptr;  ///< a better approximation from the last; the first is a multiple of f
+  SliceFunction first_iterate = nullptr;  ///< a better approximation than f, which is the strain to read; noted where watched
+  SliceFunction iterate = nullptr;  ///< a better approximation from the last
   SliceFunction last_iterate = nullptr;  ///< the same, noted where watched
   SliceFunction respond = nullptr;  ///< kick by the forces that the source stage has left, and the strains
   // Implicit, conjugate gradients.

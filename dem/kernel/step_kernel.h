@@ -9,34 +9,23 @@
 // in [0, rho], that is (1 + T) eps = (V C)^-1 S K C u =: f, solved by a fixed number of relaxations from zero: a
 // polynomial of T (spectra/strain_polynomial.h), so that the effective stiffness is as symmetric as S K G, and conserves
 // its energy exactly.
+// Without rotation and with linear kinematics all that a bond reads of its other disc is one number: what that disc's
+// displacement and strain add to the bond's length. Where a disc writes it for each of its bonds (kPulls), the sweep over the
+// other ends gathers one double where it would take five, and forms products only that its own disc needs. A disc's pull is of its
+// displacement (lagged: and of its strain), its press of its strain alone.
 // What a run does not use is not compiled into its kernel (if constexpr on the template parameters).
 
-#include "dem/kernel/bond_laws.h"
+#include "dem/kernel/slice_loop.h"
 
 namespace ddem::DDEM_ISA {
 namespace {
 
-template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain>
+template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain, bool kPulls = false>
 struct StepKernel {
   using State = typename Bond::State;
   static constexpr bool kDeformable = kStrain != StrainCoupling::none;
-
-  struct Sums {
-    Pack fx{}, fy{}, moment{}, sxx{}, syy{}, sxy{};
-  };
-
-  /// The one loop over bonds. For each slice of eight discs, the first of which is p: own = disc_data(p), then
-  /// row_of_bonds(k, own, sums) for each of its rows, k the row's first half-bond, then disc(p, own, sums).
-  template <class Own, class Row, class Disc>
-  DDEM_INLINE static void for_slices(const StepData& d, int begin, int end, Own own_data, Row row_of_bonds, Disc disc) {
-    for (int slice = begin; slice < end; ++slice) {
-      const int p = slice * kWidth;
-      const auto own = own_data(p);
-      Sums sum;
-      for (int row = d.row_begin[slice]; row < d.row_begin[slice + 1]; ++row) row_of_bonds(row * kWidth, own, sum);
-      disc(p, own, sum);
-    }
-  }
+  /// Stress by forces along the normals: its two shear stresses are the same.
+  static constexpr bool kCentral = !kRotation || kStrain == StrainCoupling::normal_only_stress;
 
   /// What the bonds of a slice read of their own disc.
   struct Own {
@@ -58,6 +47,10 @@ struct StepKernel {
   DDEM_INLINE static State deformed(const StepData& d, int k, const Own& own) {
     if constexpr (!kDeformable) {
       return rigid(d, k, own.motion);
+    } else if constexpr (kPulls) {
+      State b = bond_at<Bond>(d, k);
+      b.u_n = both_ends(d, d.pull, k);
+      return b;
     } else if constexpr (Kinematics::kLinear && kRotation && kStrain == StrainCoupling::full) {
       const Vector v = approach(bond_at<Bond>(d, k), own.strain, gather(d.strain, d.neighbour + k));
       const Triple other = gather(d.motion, d.neighbour + k);
@@ -82,13 +75,13 @@ struct StepKernel {
   DDEM_INLINE static void add(const StepData& d, const State& b, int k, Sums& sum) {
     const Pack f_n = Bond::normal(d, k) * b.u_n;
     Pack fx = f_n * b.nx, fy = f_n * b.ny;
-    if constexpr (kStress && (!kRotation || kStrain == StrainCoupling::normal_only_stress)) add_normal_stress(b, dyad(b), f_n, sum);
+    if constexpr (kStress && kCentral) add_central_stress(b, fx, fy, sum);
     if constexpr (kRotation) {
       const Pack f_t = Bond::shear(d, k) * b.u_t;
       fx -= f_t * b.ny;
       fy += f_t * b.nx;
       if constexpr (kForce) sum.moment += b.stretch * f_t;
-      if constexpr (kStress && kStrain != StrainCoupling::normal_only_stress) add_stress(b, fx, fy, sum);
+      if constexpr (kStress && !kCentral) add_stress(b, fx, fy, sum);
     }
     if constexpr (kForce) {
       sum.fx += fx;
@@ -96,46 +89,31 @@ struct StepKernel {
     }
   }
 
-  /// V_p sigma_p / r = sum_c s n (x) F_c; sxy holds the sum of both shear stresses.
+  /// V_p sigma_p / r = sum_c s n (x) F_c; sxy holds the sum of both shear stresses, or one of two that are the same.
   DDEM_INLINE static void add_stress(const State& b, Pack fx, Pack fy, Sums& sum) {
     const Pack sx = b.stretch * b.nx, sy = b.stretch * b.ny;
     sum.sxx += sx * fx;
     sum.syy += sy * fy;
     sum.sxy += sx * fy + sy * fx;
   }
+  DDEM_INLINE static void add_central_stress(const State& b, Pack fx, Pack fy, Sums& sum) {
+    const Pack sx = b.stretch * fx, sy = b.stretch * fy;
+    sum.sxx += sx * b.nx;
+    sum.syy += sy * b.ny;
+    sum.sxy += sx * b.ny;
+  }
   DDEM_INLINE static void add_normal_stress(const State& b, const Dyad& n, Pack f_n, Sums& sum) {
     const Pack g = b.stretch * f_n;
     sum.sxx += g * n.xx;
     sum.syy += g * n.yy;
-    sum.sxy += g * n.xy;
+    sum.sxy += (kCentral ? g : g + g) * n.xy;
   }
 
   /// r eps_p = r D : sigma_p.
   DDEM_INLINE static Triple strain_from(const StepData& d, const Sums& sum) {
     return {d.compliance_direct * sum.sxx + d.compliance_coupling * sum.syy,
-            d.compliance_coupling * sum.sxx + d.compliance_direct * sum.syy, 0.5 * d.compliance_shear * sum.sxy};
+            d.compliance_coupling * sum.sxx + d.compliance_direct * sum.syy, (kCentral ? 1.0 : 0.5) * d.compliance_shear * sum.sxy};
   }
-
-  /// The largest of a sweep, for whoever watches what may close: compiled in where kWatched.
-  template <bool kWatched>
-  struct Watch {
-    Pack speed{}, strain{};
-    DDEM_INLINE void note_velocity(Pack vx, Pack vy) {
-      if constexpr (kWatched) speed = larger(add_square(vx, vy * vy), speed);
-    }
-    DDEM_INLINE void note_strain(const Triple& e) {
-      if constexpr (kWatched) strain = larger(add_square(e.a, add_square(e.b, e.c * e.c)), strain);
-    }
-    void tell(double* at, Pack noted) const {
-      if constexpr (kWatched) {
-        double most = 0.0;
-        for (int l = 0; l < kWidth; ++l) most = noted[l] > most ? noted[l] : most;
-        *at = most;
-      }
-    }
-    void tell_speed(const StepData& d, int begin) const { tell(d.fastest + begin, speed); }
-    void tell_strain(const StepData& d, int begin) const { tell(d.most_strained + begin, strain); }
-  };
 
   template <bool kWatched>
   DDEM_INLINE static void relax_strain(const StepData& d, int p, const Triple& before, const Triple& e, Watch<kWatched>& watch) {
@@ -156,21 +134,52 @@ struct StepKernel {
     if constexpr (kRotation) kicked(d.omega, d.kick_theta, kRotationalKick * sum.moment);
   }
 
+  DDEM_INLINE static void drift_discs(const StepData& d, int p) {
+    Triple moved{d.dt * load(d.vx + p), d.dt * load(d.vy + p), Pack{}};
+    if constexpr (kRotation) moved.c = d.dt * load(d.omega + p);
+    add_triple(d.motion, p, moved);
+  }
   static void drift(const StepData& data, int begin, int end) {
     const StepData d = data;
-    for (int p = begin * kWidth; p < end * kWidth; p += kWidth) {
-      Triple moved{d.dt * load(d.vx + p), d.dt * load(d.vy + p), Pack{}};
-      if constexpr (kRotation) moved.c = d.dt * load(d.omega + p);
-      add_triple(d.motion, p, moved);
-    }
+    for (int p = begin * kWidth; p < end * kWidth; p += kWidth) drift_discs(d, p);
   }
 
-  DDEM_INLINE static Triple combine(double wx, const Triple& x, double wy, const Triple& y) {
-    return {wx * x.a + wy * y.a, wx * x.b + wy * y.b, wx * x.c + wy * y.c};
+  /// What the discs add to the elongation of their bonds; lagged: with the strains to come, -n.(u + s r eps.n).
+  template <bool kLagged, bool kDrift>
+  static void pull(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    const auto turned = [](const Triple& t) DDEM_INLINE_LAMBDA { return Triple{-t.a, -t.b, -t.c}; };
+    for_slices(
+        d, begin, end,
+        [&](int p) DDEM_INLINE_LAMBDA {
+          if constexpr (kDrift) drift_discs(d, p);
+          return Own{turned(load_triple(d.motion, p)), turned(load_triple(d.strain_next, p))};
+        },
+        [&d](int k, const Own& own, Sums&) DDEM_INLINE_LAMBDA {
+          const State b = bond_at<Bond>(d, k);
+          Vector v{own.motion.a, own.motion.b};
+          if constexpr (kLagged) {
+            const Vector strained = boundary(b, own.strain);
+            v.x += strained.x, v.y += strained.y;
+          }
+          store(d.pull + k, b.nx * v.x + b.ny * v.y);
+        },
+        [](int, const Own&, const Sums&) {});
   }
-  DDEM_INLINE static Triple difference(const Triple& x, const Triple& y) { return {x.a - y.a, x.b - y.b, x.c - y.c}; }
-  /// x + w y.
-  DDEM_INLINE static Triple along(const Triple& x, double w, const Triple& y) { return {x.a + w * y.a, x.b + w * y.b, x.c + w * y.c}; }
+
+  /// The approach of the boundaries by the strain e of the discs p .. p + 7 alone, on each of their bonds.
+  DDEM_INLINE static void press(const StepData& d, int p, const Triple& e, double* to) {
+    for_slices(
+        d, p / kWidth, p / kWidth + 1, [&e](int) DDEM_INLINE_LAMBDA { return Triple{e.a, e.b, e.c + e.c}; },
+        [&d, to](int k, const Triple& own, Sums&) DDEM_INLINE_LAMBDA {
+          store(to + k, (own.a * load(d.dyad_xx + k) + own.b * load(d.dyad_yy + k)) + own.c * load(d.dyad_xy + k));
+        },
+        [](int, const Triple&, const Sums&) {});
+  }
+  static void press_next(const StepData& data, int begin, int end) {
+    const StepData d = data;
+    for (int p = begin * kWidth; p < end * kWidth; p += kWidth) press(d, p, load_triple(d.strain_next, p), d.press_next);
+  }
 
   /// What a row of bonds adds under the displacements and strains at hand.
   template <bool kForce, bool kStress>
@@ -180,13 +189,24 @@ struct StepKernel {
     };
   }
 
+  /// What a row of bonds adds by what both of its ends have written.
+  template <bool kForce, bool kStress>
+  DDEM_INLINE static void add_shares(const StepData& d, const double* shares, int k, Sums& sum) {
+    const Pack f_n = Bond::normal(d, k) * both_ends(d, shares, k);
+    if constexpr (kForce) sum.fx += f_n * load(d.nx + k), sum.fy += f_n * load(d.ny + k);
+    if constexpr (kStress) {
+      sum.sxx += f_n * load(d.dyad_xx + k), sum.syy += f_n * load(d.dyad_yy + k), sum.sxy += f_n * load(d.dyad_xy + k);
+    }
+  }
+
   /// Under the strains alone: overlaps G eps, whose stress gives T eps, or whose force is what the discs' strains take off.
   template <bool kForce, bool kStress>
   DDEM_INLINE static auto strained(const StepData& d) {
     return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
       const State b = bond_at<Bond>(d, k);
-      const Triple other = gather(d.strain, d.neighbour + k);
       const Pack k_n = Bond::normal(d, k);
+      if constexpr (kPulls) return add_shares<kForce, kStress>(d, d.press, k, sum);
+      const Triple other = gather(d.strain, d.neighbour + k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
         // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).
         const Vector v = approach(b, own, other);
@@ -238,27 +258,33 @@ struct StepKernel {
     const StepData d = data;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.motion, p); },
-        [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA { add<true, true>(d, rigid(d, k, own), k, sum); },
+        [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
+          if constexpr (kPulls) return add_shares<true, true>(d, d.pull, k, sum);
+          add<true, true>(d, rigid(d, k, own), k, sum);
+        },
         [&d](int p, const Triple&, const Sums& sum) DDEM_INLINE_LAMBDA {
           store(d.rigid_fx + p, sum.fx);
           store(d.rigid_fy + p, sum.fy);
           if constexpr (kRotation) store(d.rigid_moment + p, sum.moment);
-          store_triple(d.source, p, strain_from(d, sum));
+          const Triple e = strain_from(d, sum);
+          store_triple(d.source, p, e);
+          if constexpr (kPulls) press(d, p, e, d.press);
         });
   }
 
-  /// The next approximation, by the residual f - eps - T eps.
-  template <bool kWatched>
+  /// The next approximation, by the residual f - eps - T eps; the first from eps = f.
+  template <bool kWatched, bool kFirst>
   static void iterate(const StepData& data, int begin, int end) {
     const StepData d = data;
     Watch<kWatched> watch;
     for_slices(
         d, begin, end, [&d](int p) DDEM_INLINE_LAMBDA { return load_triple(d.strain, p); }, strained<false, true>(d),
         [&d, &watch](int p, const Triple& e, const Sums& sum) DDEM_INLINE_LAMBDA {
-          const Triple known = combine(d.of_strain, e, d.of_source, load_triple(d.source, p));
+          const Triple known = combine(d.of_strain, e, d.of_source, kFirst ? e : load_triple(d.source, p));
           const Triple next = along(known, -d.of_coupling, strain_from(d, sum));
           watch.note_strain(next);
           store_triple(d.strain_next, p, next);
+          if constexpr (kPulls) press(d, p, next, d.press_next);
         });
     watch.tell_strain(d, begin);
   }
@@ -344,13 +370,22 @@ struct StepKernel {
       if constexpr (Kinematics::kLinear) {
         if (f.implicit) {
           k.step = &step<false, kWatched>;
-          k.source = &source, k.iterate = &iterate<false>, k.last_iterate = &iterate<kWatched>, k.respond = &respond<kWatched>;
+          k.source = &source, k.respond = &respond<kWatched>;
+          k.first_iterate = &iterate<kWatched, true>, k.iterate = &iterate<false, false>, k.last_iterate = &iterate<kWatched, false>;
+          if constexpr (kPulls) {
+            k.drift = &pull<false, true>, k.pull = &pull<false, false>, k.press = &press_next;
+            return k;
+          }
           k.residual = &residual, k.apply = &apply, k.advance = &advance, k.turn = &turn;
           return k;
         }
       }
       k.step = &step<true, kWatched>;
-      k.evaluate = &evaluate<kWatched>;
+      if constexpr (kPulls) {
+        k.drift = &pull<true, true>, k.pull = &pull<true, false>;
+      } else {
+        k.evaluate = &evaluate<kWatched>;
+      }
     } else {
       k.step = &step<false, kWatched>;
     }
@@ -358,36 +393,5 @@ struct StepKernel {
   }
 };
 
-template <class Kinematics, class Bond, bool kRotation>
-StepKernels choose_strain(const StepFeatures& f) {
-  switch (f.strain) {
-    case StrainCoupling::none: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::none>::kernels(f);
-    case StrainCoupling::normal: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal>::kernels(f);
-    case StrainCoupling::full: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::full>::kernels(f);
-    case StrainCoupling::normal_only_stress:
-      return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal_only_stress>::kernels(f);
-  }
-  return {};
-}
-
-template <class Kinematics, class Bond>
-StepKernels choose_rotation(const StepFeatures& f) {
-  return f.rotation ? choose_strain<Kinematics, Bond, true>(f) : choose_strain<Kinematics, Bond, false>(f);
-}
-
-template <class Kinematics>
-StepKernels choose_bonds(const StepFeatures& f) {
-  if (f.per_bond_stiffness) return choose_rotation<Kinematics, BondStiffness>(f);
-  if constexpr (Kinematics::kLinear) {
-    if (f.touching) return choose_rotation<Kinematics, UniformStiffness<TouchingBonds>>(f);
-  }
-  return choose_rotation<Kinematics, UniformStiffness<StretchedBonds>>(f);
-}
-
 }  // namespace
-
-StepKernels choose(const StepFeatures& f) {
-  return f.nonlinear ? choose_bonds<NonlinearKinematics>(f) : choose_bonds<LinearKinematics>(f);
-}
-
 }  // namespace ddem::DDEM_ISA

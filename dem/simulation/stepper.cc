@@ -48,6 +48,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   const bool uniform = input.contact.uniform();
   bonds_ = slice_bonds(a.bonds, position_, uniform ? std::vector<double>{} : normal_stiffnesses(a, input.contact),
                        input.contact.kinematics == Kinematics::nonlinear);
+  pulls_ = worth_pulling(input);
   padded_ = static_cast<std::size_t>(bonds_.slices) * kLanes;
   range_begin_.resize(static_cast<std::size_t>(std::min(input.threads, std::max(1, bonds_.slices))) + 1);
   share(bonds_.slices);
@@ -61,13 +62,16 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
     for (auto* array : {&fastest_, &most_strained_}) array->assign(static_cast<std::size_t>(bonds_.slices), 0.0);
   }
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform,
-                           bonds_.stretch.empty(), watch_.has_value()},
+                           bonds_.stretch.empty(), pulls_, watch_.has_value()},
                           isa);
   automatic_steps_ = input.steps_a_sweep == 0;
   steps_at_once_ = automatic_steps_ ? worthwhile_steps() : input.steps_a_sweep;
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   if (input.follow_front) find_fronts();
+  if (pulls_) bonds_.neighbour = {};
+  bind();
+  pull(0, 0, bonds_.slices);
   start_leapfrog();
   begin_step();
 }
@@ -85,6 +89,7 @@ void Stepper::size_arrays(const SimulationInput& input) {
   if (implicit_ && input.deformation.solver == StrainSolver::polynomial) {
     for (auto* array : {&rigid_fx_, &rigid_fy_, &rigid_moment_}) array->assign(padded_, 0.0);
   }
+  if (pulls_) size_pulls();
   if (rotation_ && input.contact.kinematics == Kinematics::nonlinear) {
     for (auto* array : {&previous_dx_, &previous_dy_, &previous_rotation_, &slip_}) {
       array->assign(bonds_.neighbour.size(), 0.0);
@@ -165,6 +170,11 @@ void Stepper::relax() {
   data_.of_coupling = first ? w * before : w;
 }
 
+SliceFunction Stepper::iteration() const {
+  if (stages_done_ == 1) return kernels_.first_iterate;
+  return stages_done_ + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate;
+}
+
 void Stepper::begin_stage(Stage stage) {
   stage_ = stage;
   if (watch_ && (stage == Stage::evaluate || stage == Stage::motion)) {
@@ -175,7 +185,7 @@ void Stepper::begin_stage(Stage stage) {
   switch (stage) {
     case Stage::evaluate: due_ = kernels_.evaluate; break;
     case Stage::source: due_ = kernels_.source; break;
-    case Stage::iterate: due_ = stages_done_ + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate; break;
+    case Stage::iterate: due_ = iteration(); break;
     case Stage::residual: due_ = kernels_.residual; break;
     case Stage::apply: due_ = kernels_.apply; break;
     case Stage::advance: due_ = kernels_.advance; break;
@@ -260,7 +270,6 @@ void Stepper::load(const InitialState& s) {
   if (rotation_) copy(times_radius(s.theta), motion_, kQuad, 2);
   copy(s.vx, vx_, 1, 0), copy(s.vy, vy_, 1, 0), copy(times_radius(s.omega), omega_, 1, 0);
   if (drive_) impose(0.0, motion_);
-  bind();
 }
 
 /// The step kernel takes v_{n-1/2} to v_{n+1/2}. From v_0 it needs v_{-1/2} = v_0 - dt a_0 / 2; a_0 comes from one step
@@ -302,7 +311,6 @@ bool Stepper::finish_stage() {
   }
   if (watch_) finish_contacts();
   step_number_ += steps_taken_ = steps_due_;
-  if (drive_ && steps_taken_ == 1) impose(static_cast<double>(step_number_) * data_.dt, motion_);
   // The motion of a lagged step has written the strains to come.
   if (!implicit_ && steps_taken_ % 2 == 1) swap_strains();
   begin_step();
@@ -311,7 +319,9 @@ bool Stepper::finish_stage() {
 
 void Stepper::swap_strains() {
   std::swap(strain_, strain_next_);
+  std::swap(press_, press_next_);
   data_.strain = strain_.data(), data_.strain_next = strain_next_.data();
+  data_.press = press_.data(), data_.press_next = press_next_.data();
 }
 
 void Stepper::bind() {
@@ -325,6 +335,8 @@ void Stepper::bind() {
   d.kick_x = kick_x_.data(), d.kick_y = kick_y_.empty() ? d.kick_x : kick_y_.data();
   d.kick_theta = kick_theta_.empty() ? d.kick_x : kick_theta_.data();
   d.strain = strain_.data(), d.strain_next = strain_next_.data(), d.source = source_.data();
+  d.pull = pull_.data(), d.press = press_.data(), d.press_next = press_next_.data(), d.other_end = other_end_.data();
+  d.dyad_xx = dyad_xx_.data(), d.dyad_yy = dyad_yy_.data(), d.dyad_xy = dyad_xy_.data();
   d.fastest = fastest_.data(), d.most_strained = most_strained_.data();
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();

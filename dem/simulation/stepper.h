@@ -24,7 +24,7 @@ class Stepper {
   /// A step is a row of stages: strains to be found first, then the motion. Does a thread's share of the stage that is
   /// due; when all threads have, one of them calls finish_stage.
   void advance(int thread);
-  /// Exchanges what the stage wrote; after the last one the driven edge is imposed at t_{n+1}. True when a step is done.
+  /// Exchanges what the stage wrote. True when a step is done.
   bool finish_stage();
 
   /// Threads that share the slices up to the front of the motion.
@@ -83,6 +83,7 @@ class Stepper {
   void follow_front();
   void share(int front);
   void relax();
+  SliceFunction iteration() const;
   // Kick and drift, stepper_sweeps.cc.
   int worthwhile_steps() const;
   bool drifts_with_kick() const;
@@ -90,6 +91,9 @@ class Stepper {
   void sweep(int begin, int end, bool seam_before, bool seam_after);
   void close_seam(int slice);
   void drift(int level, int begin, int end);
+  void pull(int level, int begin, int end);
+  bool worth_pulling(const SimulationInput& input) const;
+  void size_pulls();
   std::size_t driven_component(int place) const { return static_cast<std::size_t>(kQuad * place + (drive_->direction == Direction::x ? 0 : 1)); }
   // New contacts, stepper_contacts.cc.
   void look_for_contacts();
@@ -104,7 +108,7 @@ class Stepper {
   SlicedBonds bonds_;
   std::vector<int> position_;
   std::size_t discs_ = 0, padded_ = 0;
-  bool rotation_ = false, deformable_ = false;
+  bool rotation_ = false, deformable_ = false, pulls_ = false;
   std::optional<EdgeDrive> drive_;
   std::vector<int> driven_places_;
   AlignedVector<double> motion_, strain_, strain_next_, source_;  // kQuad a disc
@@ -112,6 +116,8 @@ class Stepper {
   AlignedVector<double> kick_x_, kick_y_, kick_theta_;  // the others empty where they would be kick_x_
   AlignedVector<double> rigid_fx_, rigid_fy_, rigid_moment_;
   AlignedVector<double> previous_dx_, previous_dy_, previous_rotation_, slip_;
+  AlignedVector<double> pull_, press_, press_next_, dyad_xx_, dyad_yy_, dyad_xy_;
+  AlignedVector<std::int32_t> other_end_;
   StepData data_{};
   StepKernels kernels_;
   SliceFunction move_ = nullptr, due_ = nullptr;

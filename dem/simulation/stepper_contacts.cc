@@ -88,6 +88,13 @@ void Stepper::add_contact_strains() {
       add_strain(c, c.force(), data_.new_strain, strain_next_);
     }
   }
+  if (kernels_.press) {
+    StepData written = data_;
+    if (stage_ == Stage::source) written.strain_next = source_.data(), written.press_next = press_.data();
+    for (const NewContact& c : pushing) {
+      for (const int p : {c.i, c.j}) kernels_.press(written, p / kLanes, p / kLanes + 1);
+    }
+  }
   if (stage_ == Stage::source) return;
   double most = largest_of(most_strained_);
   for (const NewContact& c : pushing) {
@@ -131,6 +138,7 @@ void Stepper::finish_contacts() {
     const double fx = c.force() * c.nx, fy = c.force() * c.ny;
     push(c.i, fx, fy);
     push(c.j, -fx, -fy);
+    for (const int p : {c.i, c.j}) pull(0, p / kLanes, p / kLanes + 1);
   }
   double distance = data_.dt * std::sqrt(fastest);
   if (drive_) {

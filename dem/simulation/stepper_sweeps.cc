@@ -17,6 +17,7 @@ constexpr int kBlock = 64;  // slices that are kicked before others drift
 // nothing by more than one.
 constexpr std::size_t kOwnCache = 2 << 20, kSharedCache = 8 << 20;  // bytes
 constexpr std::size_t kMostSteps = 16;
+constexpr std::size_t kPressCache = 1 << 20;
 
 }  // namespace
 
@@ -24,7 +25,26 @@ std::size_t Stepper::array_bytes() const {
   const auto bytes = [](const auto&... arrays) { return (... + (arrays.size() * sizeof(arrays[0]))); };
   return bytes(bonds_.row_begin, bonds_.neighbour, bonds_.nx, bonds_.ny, bonds_.stretch, bonds_.length, bonds_.stiffness, position_,
                motion_, strain_, strain_next_, source_, vx_, vy_, omega_, kick_x_, kick_y_, kick_theta_, rigid_fx_, rigid_fy_,
-               rigid_moment_, previous_dx_, previous_dy_, previous_rotation_, slip_);
+               rigid_moment_, previous_dx_, previous_dy_, previous_rotation_, slip_, pull_, press_, press_next_, dyad_xx_,
+               dyad_yy_, dyad_xy_, other_end_);
+}
+
+/// Implicit strains take three sweeps a step and more over what the discs pull and press: faster only from a core's own cache.
+bool Stepper::worth_pulling(const SimulationInput& in) const {
+  if (rotation_ || !deformable_ || in.contact.kinematics == Kinematics::nonlinear || in.deformation.evaluations > 1) return false;
+  constexpr std::size_t kBytes = 8 * sizeof(double) + sizeof(std::int32_t);  // a half-bond
+  return !implicit_ || (in.deformation.solver == StrainSolver::polynomial && bonds_.neighbour.size() * kBytes < kPressCache);
+}
+
+void Stepper::size_pulls() {
+  other_end_ = other_ends(assembly_.bonds, position_, bonds_);
+  pull_.assign(other_end_.size(), 0.0);
+  if (!implicit_) return;
+  for (auto* array : {&press_, &press_next_, &dyad_xx_, &dyad_yy_, &dyad_xy_}) array->assign(other_end_.size(), 0.0);
+  for (std::size_t k = 0; k < other_end_.size(); ++k) {
+    const double s = bonds_.stretch.empty() ? 1.0 : bonds_.stretch[k], nx = bonds_.nx[k], ny = bonds_.ny[k];
+    dyad_xx_[k] = s * (nx * nx), dyad_yy_[k] = s * (ny * ny), dyad_xy_[k] = s * (nx * ny);
+  }
 }
 
 int Stepper::worthwhile_steps() const {
@@ -49,7 +69,7 @@ void Stepper::advance(int thread) {
   const int begin = range_begin_[thread], end = range_begin_[thread + 1];
   if (begin >= end) return;
   if (stage_ == Stage::seams) {
-    if (!drifts_with_kick()) return kernels_.drift(data_, begin, end);
+    if (!drifts_with_kick()) return drift(0, begin, end);
     if (thread + 1 < threads()) close_seam(end);
   } else if (stage_ != Stage::motion) {
     due_(data_, begin, end);
@@ -99,17 +119,23 @@ void Stepper::close_seam(int slice) {
   }
 }
 
-/// After step `level` of a sweep; of one that takes several, what would happen between them.
+/// After step `level` of a sweep: displacements, and those of a driven edge at t_{n+1}.
 void Stepper::drift(int level, int begin, int end) {
-  kernels_.drift(data_, begin, end);
-  if (steps_due_ == 1) return;
+  kernels_.drift(data_of(level), begin, end);
   const int first = begin * kLanes, last = end * kLanes;
   if (drive_) {
     const double value = drive_->displacement(static_cast<double>(step_number_ + level + 1) * data_.dt);
-    const auto from = std::lower_bound(driven_places_.begin(), driven_places_.end(), first);
-    for (auto place = from; place != driven_places_.end() && *place < last; ++place) motion_[driven_component(*place)] = value;
+    const auto from = std::lower_bound(driven_places_.begin(), driven_places_.end(), first),
+               to = std::lower_bound(from, driven_places_.end(), last);
+    for (auto place = from; place != to; ++place) motion_[driven_component(*place)] = value;
+    if (from != to) pull(level, *from / kLanes, *(to - 1) / kLanes + 1);
   }
-  taps_.keep(motion_.data(), level, first, last);
+  if (steps_due_ > 1) taps_.keep(motion_.data(), level, first, last);
+}
+
+/// With the strains that step `level` of a sweep has written.
+void Stepper::pull(int level, int begin, int end) {
+  if (kernels_.pull) kernels_.pull(data_of(level), begin, end);
 }
 
 AlignedVector<double> Stepper::motion_before() const {

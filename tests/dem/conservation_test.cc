@@ -65,7 +65,9 @@ std::vector<Model> models() {
           {"contact_modulus_frictionless", modulus0, {}},
           {"contact_modulus", modulus5, {}},
           {"contact_modulus_nonlinear", {0.0, 0.5, Kinematics::nonlinear, 1e14}, {}},
+          {"contact_modulus_lagged_frictionless", modulus0, lagged(Correction::full)},
           {"contact_modulus_lagged_full", modulus5, lagged(Correction::full)},
+          {"contact_modulus_implicit_frictionless", modulus0, implicit(Correction::full)},
           {"contact_modulus_implicit_full", modulus5, implicit(Correction::full)}};
 }
 

@@ -1,7 +1,7 @@
 // kernel_load LAW: a fixed load, in a function of its own, for a program that counts instructions (costs_test.cc). Writes the
 // bond-steps done, or the steps of the march.
 //
-// dem, dem_shear, dem_shear_per_bond, lagged, implicit: 200 steps of the kernels on a lattice of 682 discs, all moving.
+// dem, dem_shear, dem_shear_per_bond, lagged, lagged_shear, implicit, implicit_shear: 200 steps of the kernels on a lattice of 682 discs, all moving.
 // wave: a released column in the random strip of 682 discs, exact in time at ten discs for 7 us, every fifth of a step.
 
 #include <cmath>
@@ -59,14 +59,16 @@ int main(int argc, char** argv) {
       {"dem", {{k_n, 0.0}, {}}},
       {"dem_shear", {{k_n, 0.5}, {}}},
       {"dem_shear_per_bond", {{k_n, 0.5, Kinematics::linear, k_n}, {}}},
-      {"lagged", {{k_n, 0.5}, lagged}},
-      {"implicit", {{k_n, 0.5}, soft}}};
+      {"lagged", {{k_n, 0.0}, lagged}},
+      {"lagged_shear", {{k_n, 0.5}, lagged}},
+      {"implicit", {{k_n, 0.0}, soft}},
+      {"implicit_shear", {{k_n, 0.5}, soft}}};
   if (law == "wave") {
     wave();
   } else if (const auto found = laws.find(law); found != laws.end()) {
     kernels(found->second.first, found->second.second);
   } else {
-    std::cerr << "kernel_load dem|dem_shear|dem_shear_per_bond|lagged|implicit|wave\n";
+    std::cerr << "kernel_load dem|dem_shear|dem_shear_per_bond|lagged|lagged_shear|implicit|implicit_shear|wave\n";
     return 2;
   }
   return 0;
