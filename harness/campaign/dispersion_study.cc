@@ -108,7 +108,7 @@ FemCase continuum(const ContinuumMaterial& material, Wave wave, bool periodic, d
   c.id = std::string(periodic ? "periodic" : "free") + (wave == Wave::shear ? "-shear" : "-longitudinal");
   c.length = kColumns * kSpacing;
   c.width = kRows * 2.0 * kRadius;
-  c.elements = {64, 2};
+  c.elements = {48, 1};  // the shortest wave looked at, of four columns, is 1.5 of them: crests within 1e-4
   c.degree = 6;
   c.material = material;
   c.periodic = periodic;

@@ -36,7 +36,7 @@ struct StabilityGrid {
   std::vector<double> softness;       ///< k_n/E_p, ascending
   std::vector<double> step_fraction;  ///< of the critical step of rigid discs, ascending
   std::vector<double> random_softness, random_step_fraction;  ///< of random packings
-  int random_discs = 18;
+  int random_discs = 16;
   /// Changes what the runs are given, not the predictions: a defect that the comparison must find.
   std::function<void(SimulationInput&)> disturb;
 };

@@ -233,7 +233,7 @@ void add_size_failures(const SizeStudy& study, Verdict& v) {
   }
 }
 
-/// Of the sizes that were jammed as a whole.
+/// Of the coarsest size.
 std::size_t least_strips(const SizeStudy& study) {
   const auto means = study.mean_bias(StripPacking::random, 0);
   return means.empty() ? 1 : means.front().strips;
