@@ -48,7 +48,8 @@ reports::Plot panel(const std::string& title) {
 
 reports::Table kernel_table(const std::vector<KernelTime>& kernels) {
   reports::Table t;
-  t.caption = "Median of interleaved rounds at 0.3 of the critical step; setting up is not counted. Over DEM: median of the rounds' own ratios.";
+  t.caption = "Median of interleaved rounds at 0.3 of the critical step; setting up is not counted. Over DEM (of deformable discs "
+              "with k_t = 0: over DEM with k_t = 0): median of the rounds' own ratios.";
   t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best round", "ns", 3}, {"over DEM", "", 3}};
   for (const KernelTime& k : kernels) {
     t.rows.push_back({k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem});

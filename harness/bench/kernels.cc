@@ -13,22 +13,26 @@ namespace ddem::harness::bench {
 namespace {
 
 constexpr double kStepFraction = 0.3;  // all laws here are stable at it
-constexpr std::size_t kReference = 1;  // place of DEM with shear and uniform stiffness among the laws
 
 struct Competitor {
   Law law;
   bool per_bond;
+  std::size_t reference;  ///< place of the law that it is compared with
   std::unique_ptr<Stepper> stepper;
 };
 
 std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly& assembly) {
   std::vector<Competitor> all;
+  constexpr std::size_t kNoShear = 0, kShear = 1;
   for (const bool per_bond : {false, true}) {
-    all.push_back({rigid(false, per_bond), per_bond, {}});
-    all.push_back({rigid(true, per_bond), per_bond, {}});
+    all.push_back({rigid(false, per_bond), per_bond, kShear, {}});
+    all.push_back({rigid(true, per_bond), per_bond, kShear, {}});
     if (!plan.deformable) break;
-    all.push_back({deformable(Scheme::lagged, per_bond), per_bond, {}});
-    if (!per_bond || plan.implicit_per_bond) all.push_back({deformable(Scheme::implicit, per_bond), per_bond, {}});
+    all.push_back({deformable(Scheme::lagged, true, per_bond), per_bond, kShear, {}});
+    if (!per_bond || plan.implicit_per_bond) all.push_back({deformable(Scheme::implicit, true, per_bond), per_bond, kShear, {}});
+  }
+  if (plan.deformable) {
+    for (const Scheme scheme : {Scheme::lagged, Scheme::implicit}) all.push_back({deformable(scheme, false), false, kNoShear, {}});
   }
   for (Competitor& c : all) {
     SimulationInput in;
@@ -98,7 +102,8 @@ std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const
       const auto seconds = take_turns(all, plan, threads);
       for (std::size_t c = 0; c < all.size(); ++c) {
         std::vector<double> ratios;
-        for (std::size_t round = 0; round < seconds[c].size(); ++round) ratios.push_back(seconds[c][round] / seconds[kReference][round]);
+        const std::vector<double>& reference = seconds[all[c].reference];
+        for (std::size_t round = 0; round < seconds[c].size(); ++round) ratios.push_back(seconds[c][round] / reference[round]);
         times.push_back({all[c].law.name, all[c].per_bond, assembly.size(), assembly.bonds.size(), threads,
                          1e9 * median(seconds[c]) / bond_steps,
                          1e9 * *std::min_element(seconds[c].begin(), seconds[c].end()) / bond_steps, median(ratios), plan.rounds});

@@ -16,7 +16,8 @@ struct KernelTime {
   int threads = 1;
   double nanoseconds_per_bond_step = 0.0;  ///< median
   double best = 0.0;                       ///< the fastest round, ns per bond and step
-  double over_dem = 0.0;                   ///< median over the rounds: times DEM with shear and uniform stiffness
+  /// Median over the rounds: times DEM with uniform stiffness and shear, of a deformable law without shear times DEM without.
+  double over_dem = 0.0;
   int rounds = 0;
 };
 

@@ -25,8 +25,9 @@ Law rigid(bool shear, bool per_bond) {
   return {shear ? "DEM" : "DEM, k_t = 0", contact(shear, per_bond), {}};
 }
 
-Law deformable(Scheme scheme, bool per_bond) {
-  Law law{scheme == Scheme::lagged ? "lagged" : "implicit", contact(true, per_bond), {}};
+Law deformable(Scheme scheme, bool shear, bool per_bond) {
+  const std::string name = scheme == Scheme::lagged ? "lagged" : "implicit";
+  Law law{shear ? name : name + ", k_t = 0", contact(shear, per_bond), {}};
   law.deformation.scheme = scheme;
   law.deformation.correction = Correction::full;
   law.deformation.young_modulus = kNormalStiffness / kSoftness;

@@ -18,10 +18,10 @@ struct Law {
   DeformationParameters deformation;
 };
 
-/// Plain DEM without and with shear stiffness, lagged and implicit strains (F). `per_bond`: k_n read from an array of
+/// Plain DEM, lagged and implicit strains (F), without and with shear stiffness. `per_bond`: k_n read from an array of
 /// one value a bond, all of them the same here, so that the motion is that of the uniform one.
 Law rigid(bool shear, bool per_bond = false);
-Law deformable(Scheme scheme, bool per_bond = false);
+Law deformable(Scheme scheme, bool shear = true, bool per_bond = false);
 
 /// Touching discs, close-packed rows along x, so many a row; `periodic` in both directions.
 ddem::Assembly lattice(int columns, int rows, bool periodic = false, double radius = kRadius);

@@ -21,9 +21,9 @@ struct Options {
 
 void print_kernels(const std::vector<bench::KernelTime>& kernels) {
   if (kernels.empty()) return;
-  fmt::print("\n{:<14} {:<9} {:>8} {:>8} {:>12} {:>8} {:>9}\n", "law", "stiffness", "discs", "threads", "ns/bond/step", "best", "over DEM");
+  fmt::print("\n{:<17} {:<9} {:>8} {:>8} {:>12} {:>8} {:>9}\n", "law", "stiffness", "discs", "threads", "ns/bond/step", "best", "over DEM");
   for (const bench::KernelTime& k : kernels) {
-    fmt::print("{:<14} {:<9} {:>8} {:>8} {:>12.2f} {:>8.2f} {:>9.2f}\n", k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs,
+    fmt::print("{:<17} {:<9} {:>8} {:>8} {:>12.2f} {:>8.2f} {:>9.2f}\n", k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs,
                k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem);
   }
 }

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include "harness/bench/triad.h"
@@ -37,7 +39,20 @@ TEST(Kernels, EveryLawIsTimedOnceForEachNumberOfThreads) {
       EXPECT_EQ(k.over_dem, 1.0);
     }
   }
-  EXPECT_EQ(seen.size(), 2u * 2u * 4u);
+  EXPECT_EQ(seen.size(), 2u * (2u * 4u + 2u));
+}
+
+TEST(Kernels, DeformableOnesAreComparedWithDemOfAsMuchShear) {
+  std::map<std::string, KernelTime> times;
+  for (const KernelTime& k : time_kernels({{240, 10, 1, true, false, {1}}}, [] {})) {
+    if (!k.per_bond_stiffness) times[k.law] = k;
+  }
+  for (const std::string law : {"lagged", "implicit"}) {  // of one round, the ratio of the times
+    for (const std::string shear : {"", ", k_t = 0"}) {
+      const KernelTime& k = times.at(law + shear);
+      EXPECT_NEAR(k.over_dem, k.nanoseconds_per_bond_step / times.at("DEM" + shear).nanoseconds_per_bond_step, 1e-12 * k.over_dem);
+    }
+  }
 }
 
 TEST(Kernels, RigidDiscsAlone) {
