@@ -73,20 +73,36 @@ std::vector<EnergyCurve> energy_curves(const StripCampaign& s) {
   return {follow(rigid, 0.2), follow(lagged, 0.2), follow(lagged, 0.05), follow(implicit, 0.2), follow(gradients, 0.2)};
 }
 
+StripCase driven_lattice(StripWave wave) { return {StripPacking::hexagonal, 0, Model::implicit_full, 0.0, Protocol::long_wave, wave}; }
+
+/// Between periodic edges, for any softness of its discs.
+struct LatticeStrip {
+  ddem::Assembly assembly;
+  double critical_time_step;  ///< of rigid discs, s
+};
+
+LatticeStrip lattice_strip(const StripCampaign& s) {
+  const Scene scene = scene_of(assembly_text(s, driven_lattice(StripWave::p), false), "reach");
+  LatticeStrip strip{build_assembly(scene), 0.0};
+  strip.critical_time_step = 2.0 / largest_frequency(strip.assembly, contact_parameters(scene), {});
+  return strip;
+}
+
 /// The campaign's driven pulse in the lattice, P and shear.
-std::optional<double> reached_poisson(const StripCampaign& s, const IsotropicModuli& closed, double density,
+std::optional<double> reached_poisson(const StripCampaign& s, const LatticeStrip& strip, const IsotropicModuli& closed, double density,
                                       const std::function<void(DeformationParameters&)>& set_scheme) {
   std::optional<double> speed[2];
   for (const StripWave wave : {StripWave::shear, StripWave::p}) {
     const bool shear = wave == StripWave::shear;
     const double expected = std::sqrt((shear ? closed.shear : closed.bulk + closed.shear) / density);
-    Scene scene = scene_of(scene_text(s, {StripPacking::hexagonal, 0, Model::implicit_full, 0.0, Protocol::long_wave, wave}, expected), "reach");
+    Scene scene = scene_of(scene_text(s, driven_lattice(wave), expected), "reach");
     set_scheme(scene.deformation.value());
     if (scene.deformation->scheme == Scheme::lagged) scene.time.integrator = Integrator::verlet;
     RunOptions run_options;
     run_options.expected_speed = expected;
+    run_options.critical_time_step = strip.critical_time_step;
     run_options.warn = false;
-    const DemRun run = run_scene(scene, run_options);
+    const DemRun run = run_assembly(scene, strip.assembly, run_options);
     if (run.result.breakdown || !run.measurement || !run.measurement->speed.speed.ok()) return std::nullopt;
     speed[shear ? 0 : 1] = run.measurement->speed.speed.value().mean;
   }
@@ -95,6 +111,7 @@ std::optional<double> reached_poisson(const StripCampaign& s, const IsotropicMod
 
 std::vector<ReachCurve> reach_curves(StripCampaign s, double poisson_ratio) {
   s.particle_poisson_ratio = poisson_ratio;
+  const LatticeStrip strip = lattice_strip(s);
   ReachCurve lagged{"lagged", {}}, relaxed{"lagged, half of the new strain", {}}, implicit{"implicit", {}};
   for (const double softness : {0.05, 0.1, 0.2, 0.4, 0.8, 1.5, 3.0, 6.0, kSoftest}) {
     s.particle_modulus = s.normal_stiffness / softness;
@@ -104,7 +121,7 @@ std::vector<ReachCurve> reach_curves(StripCampaign s, double poisson_ratio) {
     const double density = s.density * references::hexagonal_fabric().solid_fraction;
     const auto add = [&](ReachCurve& curve, Scheme scheme, double relaxation) {
       curve.points.push_back({softness,
-                              reached_poisson(s, closed, density,
+                              reached_poisson(s, strip, closed, density,
                                               [&](DeformationParameters& d) {
                                                 d.scheme = scheme;
                                                 d.relaxation = relaxation;
