@@ -203,9 +203,9 @@ struct StepKernel {
   template <bool kForce, bool kStress>
   DDEM_INLINE static auto strained(const StepData& d) {
     return [&d](int k, const Triple& own, Sums& sum) DDEM_INLINE_LAMBDA {
+      if constexpr (kPulls) return add_shares<kForce, kStress>(d, d.press, k, sum);
       const State b = bond_at<Bond>(d, k);
       const Pack k_n = Bond::normal(d, k);
-      if constexpr (kPulls) return add_shares<kForce, kStress>(d, d.press, k, sum);
       const Triple other = gather(d.strain, d.neighbour + k);
       if constexpr (kRotation && kStrain == StrainCoupling::full) {
         // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).

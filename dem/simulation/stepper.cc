@@ -69,7 +69,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   if (input.follow_front) find_fronts();
-  if (pulls_) bonds_.neighbour = {};
+  if (pulls_) bonds_.neighbour = AlignedVector<std::int32_t>();  // of {} its memory would stay
   bind();
   pull(0, 0, bonds_.slices);
   start_leapfrog();

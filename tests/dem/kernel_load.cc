@@ -1,7 +1,8 @@
 // kernel_load LAW: a fixed load, in a function of its own, for a program that counts instructions (costs_test.cc). Writes the
 // bond-steps done, or the steps of the march.
 //
-// dem, dem_shear, dem_shear_per_bond, lagged, lagged_shear, implicit, implicit_shear: 200 steps of the kernels on a lattice of 682 discs, all moving.
+// dem, dem_shear, dem_shear_per_bond, lagged, lagged_shear, implicit, implicit_shear: 200 steps of the kernels on a lattice of
+// 682 discs, all moving.
 // wave: a released column in the random strip of 682 discs, exact in time at ten discs for 7 us, every fifth of a step.
 
 #include <cmath>

@@ -198,13 +198,7 @@ TEST(LaggedReference, OfEdgesThatAreHeldAndDriven) {
 /// Three discs in a row, the third at a gap that closes: its push is read at the next step.
 TEST(LaggedReference, OfANewContact) {
   constexpr double r = 1e-4, gap = 1e-8;
-  Packing p;
-  p.x = {r, 3.0 * r, 5.0 * r + gap};
-  p.y = {r, r, r};
-  p.radius = {r, r, r};
-  p.length = 6.0 * r, p.width = 2.0 * r;
-  const std::vector<std::pair<int, int>> bonded{{0, 1}};
-  const Assembly a = make_assembly(p, bonds_between(p, bonded), 1.0, test::kDensity, RattlerRule::apart);
+  const Assembly a = test::three_discs(r, gap);
   SimulationInput in = input_of(a, 100);
   in.initial.ux = {2e-8, -2e-8, 0.0}, in.initial.uy = {0.0, 0.0, 0.0};
   in.new_contacts = ContactWatch::bound;

@@ -22,16 +22,7 @@ using test::kNormalStiffness;
 
 constexpr double kRadius = 1e-4, kGap = 1e-8, kAmplitude = 2e-8;
 
-/// Three discs in a row, 0 and 1 bonded and touching, 2 at a gap.
-Assembly three_discs() {
-  Packing p;
-  p.x = {kRadius, 3.0 * kRadius, 5.0 * kRadius + kGap};
-  p.y = {kRadius, kRadius, kRadius};
-  p.radius = {kRadius, kRadius, kRadius};
-  p.length = 6.0 * kRadius, p.width = 2.0 * kRadius;
-  const std::vector<std::pair<int, int>> bonded{{0, 1}};
-  return make_assembly(p, bonds_between(p, bonded), 1.0, kDensity, RattlerRule::apart);
-}
+Assembly three_discs() { return test::three_discs(kRadius, kGap); }
 
 /// Stiffness of the bond, and of the bond and the closed contact in series with the discs' strains where they are soft:
 /// overlaps (bond, gap) = e - B F, F = k (bond, min(gap, 0)), so F = (1/k + B)^-1 e for closed contacts. Each disc of

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "dem/assembly/assembly.h"
 #include "dem/assembly/contacts.h"
@@ -17,6 +19,17 @@ inline constexpr double kNormalStiffness = 1e10;
 inline Assembly hexagonal_assembly(const packings::HexagonalSpec& spec, double thickness = 1.0) {
   const Packing p = packings::hexagonal(spec);
   return make_assembly(p, bonds_within_gap(p, 0.3 * mean_radius(p)), thickness, kDensity);
+}
+
+/// Three discs in a row, 0 and 1 bonded and touching, 2 at a gap.
+inline Assembly three_discs(double radius, double gap) {
+  Packing p;
+  p.x = {radius, 3.0 * radius, 5.0 * radius + gap};
+  p.y = {radius, radius, radius};
+  p.radius = {radius, radius, radius};
+  p.length = 6.0 * radius, p.width = 2.0 * radius;
+  const std::vector<std::pair<int, int>> bonded{{0, 1}};
+  return make_assembly(p, bonds_between(p, bonded), 1.0, kDensity, RattlerRule::apart);
 }
 
 /// A free-standing piece of a random periodic packing: 682 discs, gap tolerance 0.3 mean radii, bonds through the
