@@ -88,7 +88,9 @@ std::size_t bench_work(const BenchPlan& plan) {
   std::size_t work = 1;
   if (plan.kernels) work += plan.kernel_plans.size() + static_cast<std::size_t>(plan.fem_kernels.rounds);
   if (plan.work_precision) work += static_cast<std::size_t>(plan.fem_repetitions) + kSchemes * plan.discs.columns.size();
-  if (plan.peers) work += plan.peer_plans.size();
+  if (plan.peers) {
+    for (const PeerPlan& peer : plan.peer_plans) work += peer.sizes.size();
+  }
   return work;
 }
 

@@ -48,9 +48,9 @@ reports::Plot panel(const std::string& title) {
 
 reports::Table kernel_table(const std::vector<KernelTime>& kernels) {
   reports::Table t;
-  t.caption = "Median of interleaved rounds at 0.3 of the critical step; setting up is not counted. Over DEM (of deformable discs "
-              "with k_t = 0: over DEM with k_t = 0): median of the rounds' own ratios.";
-  t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best round", "ns", 3}, {"over DEM", "", 3}};
+  t.caption = "Median of repetitions in random order (Google Benchmark) at 0.3 of the critical step; setting up is not counted. Over DEM (of deformable discs "
+              "with k_t = 0: over DEM with k_t = 0): ratio of the medians.";
+  t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best", "ns", 3}, {"over DEM", "", 3}};
   for (const KernelTime& k : kernels) {
     t.rows.push_back({k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem});
   }
@@ -112,7 +112,7 @@ reports::Figure precision_figure(const std::vector<PrecisionPoint>& points) {
 reports::Section precision_section(const std::vector<PrecisionPoint>& points) {
   reports::Section section{.heading = "Run time against error",
           .paragraphs = {"A small measurement among the campaign's other runs, which slow it down; \"ddem bench\" takes more meshes, sizes and "
-                         "repetitions, times every law and compares with LAMMPS. Seconds are not judged."},
+                         "repetitions, times every law and compares with LAMMPS and Yade. Seconds are not judged."},
           .figures = {precision_figure(points)}};
   for (const PrecisionPoint& p : points) {
     if (p.status != "ok") section.paragraphs.push_back(fmt::format("{} {} {}: {}", p.solver, p.scheme, p.mesh, p.status));

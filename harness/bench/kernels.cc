@@ -1,7 +1,9 @@
 #include "harness/bench/kernels.h"
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -45,35 +47,60 @@ std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly
   return all;
 }
 
-double seconds_of(Stepper& stepper, long steps, Team& team) {
+void take_steps(Stepper& stepper, long steps, Team& team) {
   long left = steps;
-  const auto take_steps = [&] { stepper.take_steps(static_cast<int>(std::clamp<long>(left, 1, stepper.steps_at_once()))); };
+  const auto plan_sweep = [&] { stepper.take_steps(static_cast<int>(std::clamp<long>(left, 1, stepper.steps_at_once()))); };
   stepper.share_among(team.size());
-  take_steps();
-  const auto start = std::chrono::steady_clock::now();
+  plan_sweep();
   team.run([&](int thread) {
     while (left > 0) {
       stepper.advance(thread);
       team.meet(thread, [&] {
         left -= stepper.finish_stage() ? stepper.steps_taken() : 0;
-        take_steps();
+        plan_sweep();
       });
     }
   });
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// seconds[competitor][round], after a round that is not counted.
-std::vector<std::vector<double>> take_turns(std::vector<Competitor>& all, const KernelPlan& plan, int threads) {
-  std::vector<std::vector<double>> seconds(all.size());
-  Team team(threads);
-  for (int round = -1; round < plan.rounds; ++round) {
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      const double time = seconds_of(*all[c].stepper, plan.steps, team);
-      if (round >= 0) seconds[c].push_back(time);
+/// A slow spell of the machine then hits all alike.
+void interleave_repetitions() {
+  std::string program = "ddem", option = "--benchmark_enable_random_interleaving=true";
+  std::array<char*, 2> arguments{program.data(), option.data()};
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+}
+
+/// seconds[competitor][repetition], by the order in which they were registered.
+class Seconds : public benchmark::BenchmarkReporter {
+ public:
+  explicit Seconds(std::size_t competitors) : seconds_(competitors) {}
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration) seconds_.at(static_cast<std::size_t>(run.family_index)).push_back(run.GetAdjustedRealTime());
     }
   }
-  return seconds;
+  const std::vector<std::vector<double>>& all() const { return seconds_; }
+
+ private:
+  std::vector<std::vector<double>> seconds_;
+};
+
+/// seconds[competitor][repetition], after a run of each that is not counted.
+std::vector<std::vector<double>> measure(std::vector<Competitor>& all, const KernelPlan& plan, int threads) {
+  Team team(threads);
+  for (Competitor& c : all) {
+    take_steps(*c.stepper, plan.steps, team);
+    benchmark::RegisterBenchmark(c.law.name.c_str(), [&c, &plan, &team](benchmark::State& state) {
+      for (auto _ : state) take_steps(*c.stepper, plan.steps, team);
+    })->Iterations(1)->Repetitions(plan.rounds)->UseRealTime()->Unit(benchmark::kSecond);
+  }
+  Seconds seconds(all.size());
+  interleave_repetitions();
+  benchmark::RunSpecifiedBenchmarks(&seconds);
+  benchmark::ClearRegisteredBenchmarks();
+  return seconds.all();
 }
 
 }  // namespace
@@ -88,7 +115,7 @@ double median(std::vector<double> values) {
 std::vector<KernelPlan> kernel_plans() {
   std::vector<int> threads{1};
   if (std::thread::hardware_concurrency() > 1) threads.push_back(2);
-  return {{682, 1500, 15, true, true, threads}, {100000, 16, 5, true, false, threads}, {1000000, 16, 3, false, false, threads}};
+  return {{682, 1500, 21, true, true, threads}, {100000, 16, 15, true, false, threads}, {1000000, 16, 5, false, false, threads}};
 }
 
 std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const std::function<void()>& progress) {
@@ -99,14 +126,12 @@ std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const
     std::vector<Competitor> all = competitors(plan, assembly);
     const double bond_steps = static_cast<double>(assembly.bonds.size()) * static_cast<double>(plan.steps);
     for (const int threads : plan.threads) {
-      const auto seconds = take_turns(all, plan, threads);
+      const auto seconds = measure(all, plan, threads);
       for (std::size_t c = 0; c < all.size(); ++c) {
-        std::vector<double> ratios;
-        const std::vector<double>& reference = seconds[all[c].reference];
-        for (std::size_t round = 0; round < seconds[c].size(); ++round) ratios.push_back(seconds[c][round] / reference[round]);
-        times.push_back({all[c].law.name, all[c].per_bond, assembly.size(), assembly.bonds.size(), threads,
-                         1e9 * median(seconds[c]) / bond_steps,
-                         1e9 * *std::min_element(seconds[c].begin(), seconds[c].end()) / bond_steps, median(ratios), plan.rounds});
+        const double time = median(seconds[c]);
+        times.push_back({all[c].law.name, all[c].per_bond, assembly.size(), assembly.bonds.size(), threads, 1e9 * time / bond_steps,
+                         1e9 * *std::min_element(seconds[c].begin(), seconds[c].end()) / bond_steps, time / median(seconds[all[c].reference]),
+                         plan.rounds});
       }
     }
     progress();

@@ -1,7 +1,7 @@
 #pragma once
-// What a bond costs in a step, law by law. All of a size take turns, round after round, and the median counts: a slow
-// spell of the machine then hits them alike, and ratios between laws hold even on a busy one. (Google Benchmark runs one
-// after the other, and would set up 1e5 discs anew for each repetition.) Setting up is not timed.
+// What a bond costs in a step, law by law, by Google Benchmark. The repetitions of all laws of a size are mixed at random
+// and the median counts: a slow spell of the machine then hits them alike, and ratios between laws hold even on a busy one.
+// Setting up is not timed.
 
 #include <functional>
 #include <string>
@@ -15,8 +15,8 @@ struct KernelTime {
   std::size_t discs = 0, bonds = 0;
   int threads = 1;
   double nanoseconds_per_bond_step = 0.0;  ///< median
-  double best = 0.0;                       ///< the fastest round, ns per bond and step
-  /// Median over the rounds: times DEM with uniform stiffness and shear, of a deformable law without shear times DEM without.
+  double best = 0.0;                       ///< the fastest repetition, ns per bond and step
+  /// Ratio of medians: times DEM with uniform stiffness and shear, of a deformable law without shear times DEM without.
   double over_dem = 0.0;
   int rounds = 0;
 };

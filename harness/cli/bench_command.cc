@@ -97,8 +97,8 @@ void add_bench_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
   command->footer("kernels         every contact law and scheme, 682, 1e5 and 1e6 discs, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
-                  "peers           LAMMPS (lmp on the PATH; Debian: lammps) on the same discs, where it is installed\n"
-                  "Without --only: all of it, in two minutes or less. Times are those of a machine that does nothing else.");
+                  "peers           LAMMPS (lmp on the PATH) and Yade (yade) on the same discs, where they are installed (Debian: lammps, yade)\n"
+                  "Without --only: all of it, in one to three minutes. Times are those of a machine that does nothing else.");
   command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "peers"}));
   command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
   command->add_flag("--json", o->json, "print the result as JSON");

@@ -1,10 +1,11 @@
 #pragma once
-// Other programs on the same scene in the same run: LAMMPS (`lmp` on the PATH), harmonic bonds between the discs of a free
-// lattice, which is the particle method without shear stiffness. Programs that are not installed are not compared.
+// Other programs on the same scene in the same run, in turns with ddem. Programs that are not installed are not compared.
 
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "harness/bench/peers/peer.h"
 
 namespace ddem::harness::bench {
 
@@ -23,14 +24,21 @@ struct Peers {
   std::string reason;  ///< why there are none, or not all
 };
 
-struct PeerPlan {
+struct PeerSize {
   std::size_t discs = 0;
   long steps = 0;
   int rounds = 0;
 };
+
+struct PeerPlan {
+  Peer peer;
+  std::vector<PeerSize> sizes;
+};
+
+/// LAMMPS and Yade with 682, 1e5 and 1e6 discs.
 std::vector<PeerPlan> peer_plans();
 
-/// `program`: a path, or a name to be found on the PATH.
-Peers time_peers(const std::vector<PeerPlan>& plans, const std::function<void()>& progress, const std::string& program = "lmp");
+/// `progress` is called once for each size of each peer, installed or not.
+Peers time_peers(const std::vector<PeerPlan>& plans, const std::function<void()>& progress);
 
 }  // namespace ddem::harness::bench
