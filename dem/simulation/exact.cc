@@ -75,7 +75,7 @@ SimulationInput march_input(const SimulationInput& in, const InitialState& start
   m.drive.reset();
   m.steps = steps;
   m.sample_every = 1;
-  m.energy_samples = 1;
+  m.energy_samples = std::min(in.energy_samples, 1);
   m.snapshots = 0;
   return m;
 }
@@ -257,10 +257,9 @@ SimulationResult simulate_exact(const Assembly& assembly, const SimulationInput&
     SimulationInput motion = in;
     motion.steps = std::max<long>(1, static_cast<long>(std::ceil(sampling.end() / in.time_step)));
     motion.receivers.clear();
-    motion.energy_samples = 1;
+    motion.energy_samples = 0;
     motion.snapshots = 0;
     if (!marches.run(std::move(motion))) return std::move(marches.total);
-    marches.total.energy_drift.reset();
     in.new_contacts = ContactWatch::off;
   }
   Matrix samples = Matrix::Zero(static_cast<Eigen::Index>(sampling.samples),

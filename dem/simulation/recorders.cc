@@ -55,20 +55,20 @@ void SignalRecorder::sample(long step, const double* motion, const std::vector<i
 }
 
 EnergyRecorder::EnergyRecorder(const Assembly& a, const SimulationInput& in, const Stepper& s)
-    : audit_(a, in.contact, in.deformation, s.order()), stepper_(s), time_step_(in.time_step) {
-  active_ = in.contact.kinematics == Kinematics::linear;
+    : stepper_(s), time_step_(in.time_step), last_(in.steps) {
+  if (in.contact.kinematics != Kinematics::linear || in.energy_samples == 0) return;
+  audit_.emplace(a, in.contact, in.deformation, s.order());
   every_ = std::max<long>(1, in.steps / in.energy_samples);
-  last_ = in.steps;
   if (in.drive) undriven_ = static_cast<long>(std::ceil(in.drive->duration / in.time_step)) + 1;
 }
 
 void EnergyRecorder::after_step() {
   const long n = stepper_.step();
   const bool first_undriven = !reference_ && n >= undriven_;
-  if (!active_ || !(first_undriven || n % every_ == 0 || n == last_)) return;
+  if (!audit_ || !(first_undriven || n % every_ == 0 || n == last_)) return;
   const Stopwatch watch(seconds_);
   const AlignedVector<double> before = stepper_.motion_before();
-  const Energies e = audit_.energies({{before.data()}, {stepper_.data().motion}, stepper_.velocities(), stepper_.strains_in_use(), stepper_.contacts_in_use()});
+  const Energies e = audit_->energies({{before.data()}, {stepper_.data().motion}, stepper_.velocities(), stepper_.strains_in_use(), stepper_.contacts_in_use()});
   samples_.push_back({static_cast<double>(n - 1) * time_step_, e});
   if (n < undriven_) return;
   if (!reference_) {
@@ -80,7 +80,7 @@ void EnergyRecorder::after_step() {
 
 long EnergyRecorder::next_step() const {
   const long n = stepper_.step();
-  if (!active_) return kNever;
+  if (!audit_) return kNever;
   const long regular = (n / every_ + 1) * every_, next = std::min(regular, last_);
   return reference_ || undriven_ <= n ? next : std::min(next, undriven_);
 }

@@ -54,10 +54,9 @@ class EnergyRecorder {
   std::vector<EnergySample> take() { return std::move(samples_); }
 
  private:
-  StateAudit audit_;
+  std::optional<StateAudit> audit_;  ///< none where nothing is to be sampled
   const Stepper& stepper_;
   double time_step_ = 0.0;
-  bool active_ = false;
   long every_ = 1, last_ = 0, undriven_ = 1;
   std::optional<double> reference_;
   double drift_ = 0.0, seconds_ = 0.0;

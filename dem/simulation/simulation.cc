@@ -134,7 +134,7 @@ double EdgeDrive::displacement(double time) const {
 void check_input(const Assembly& a, const SimulationInput& in) {
   if (!(in.time_step > 0.0)) throw std::invalid_argument("the time step must be positive");
   if (in.steps < 0) throw std::invalid_argument("the number of steps must not be negative");
-  if (in.energy_samples < 1 || in.snapshots < 0) throw std::invalid_argument("energy_samples must be at least 1, snapshots not negative");
+  if (in.energy_samples < 0 || in.snapshots < 0) throw std::invalid_argument("energy_samples and snapshots must not be negative");
   if (in.sample_every < 1) throw std::invalid_argument("sample_every must be at least 1");
   const DeformationParameters& deformation = in.deformation;
   if (deformation.evaluations < 1) throw std::invalid_argument("evaluations must be at least 1");

@@ -55,7 +55,7 @@ struct SimulationInput {
   long steps = 0;
   int sample_every = 1;
   std::vector<Receiver> receivers;
-  int energy_samples = 50;  ///< about so many over the run, and the last step
+  int energy_samples = 50;  ///< about so many over the run, and the last step; 0: none
   int snapshots = 0;        ///< so many over the run, equally spaced, the last at its end
   int threads = 1;
   bool follow_front = true;  ///< no work where nothing can have moved yet; without it the same bits, at more work

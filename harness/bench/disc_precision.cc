@@ -57,7 +57,7 @@ PrecisionPoint measure(const Subject& subject, const Law& law, std::optional<dou
   in.contact = law.contact;
   in.deformation = law.deformation;
   in.initial = pulse.start(a);
-  in.energy_samples = 1;
+  in.energy_samples = 0;
   in.time_step = fraction ? std::min(*fraction, kLargestFraction) * subject.critical : exact_step(subject.critical, std::nullopt);
   in.steps = std::lround(std::ceil(pulse.passage() / in.time_step));
   std::vector<double> places;

@@ -93,7 +93,6 @@ struct WaveOutcome {
   double time_step = 0.0, critical_time_step = 0.0;
   long steps = 0;
   double seconds = 0.0;  ///< wall time, the mean of its material's waves
-  std::optional<double> energy_drift;
   Recording recording;
 };
 

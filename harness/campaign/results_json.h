@@ -108,7 +108,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PickedSpeeds, peak, centroid, correlation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WaveOutcome, c, scene, failure, diverged, diverged_step, diverged_disc,
                                    speed, speed_stddev, centroid_speed, correlation_speed, s0, good_pairs,
                                    static_speed, kinematic_speed, section_speed, time_step,
-                                   critical_time_step, steps, seconds, energy_drift, recording)
+                                   critical_time_step, steps, seconds, recording)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripPicture, packing, time, displacement, probe_x, probe_y, probe_labels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FilmedRun, model, packing, frames, energy)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StripFilm, failure, stiffness_ratio, runs, probes)

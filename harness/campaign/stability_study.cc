@@ -194,7 +194,7 @@ SimulationInput input_of(const Subject& subject, const DeformationParameters& d)
   SimulationInput in;
   in.contact = subject.contact();
   in.deformation = d;
-  in.energy_samples = 1;
+  in.energy_samples = 0;
   if (d.scheme == Scheme::implicit) in.relaxations = strain_relaxations(subject.assembly(), subject.contact(), d);
   return in;
 }

@@ -70,7 +70,6 @@ void write_wave(Hdf5Group& parent, const WaveOutcome& w) {
   set_finite(g, "kinematic_speed", w.kinematic_speed);
   set_finite(g, "time_step", w.time_step);
   set_finite(g, "critical_time_step", w.critical_time_step);
-  set_finite(g, "energy_drift", w.energy_drift);
   g.set_attribute("steps", static_cast<std::int64_t>(w.steps));
   write_recording(g, w.recording);
 }

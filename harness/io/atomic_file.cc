@@ -70,6 +70,16 @@ std::pair<fs::path, int> open_beside(const fs::path& target) {
   }
 }
 
+/// fsync reaches what a library has written through a descriptor of its own, too: it is the same file. Opened anew, since
+/// a library may have replaced it.
+void flush_file(const fs::path& temporary, const fs::path& target) {
+  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw machine_error(target.string(), "the file written beside it has vanished", errno);
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0) throw machine_error(target.string(), "cannot flush to the disk", error);
+}
+
 /// A rename is on the disk once its directory is. Some file systems refuse, and then there is nothing to be
 /// done.
 void flush_directory(const fs::path& file) {
@@ -97,15 +107,9 @@ void AtomicFile::append(std::string_view content) {
   write_all(descriptor_, content, target_);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Flush flush) {
   if (committed_) throw std::logic_error("a file can be committed only once");
-  // fsync reaches what a library has written through a descriptor of its own, too: it is the same file.
-  // Opened anew, since a library may have replaced it.
-  const int flushed = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (flushed < 0) throw machine_error(target_.string(), "the file written beside it has vanished", errno);
-  const int fsync_error = ::fsync(flushed) == 0 ? 0 : errno;
-  ::close(flushed);
-  if (fsync_error != 0) throw machine_error(target_.string(), "cannot flush to the disk", fsync_error);
+  if (flush == Flush::to_disk) flush_file(temporary_, target_);
   const int close_error = ::close(descriptor_) == 0 ? 0 : errno;
   descriptor_ = -1;
   if (close_error != 0 && close_error != EINTR)
@@ -113,14 +117,14 @@ void AtomicFile::commit() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0)
     throw machine_error(target_.string(), "cannot put the finished file in place", errno);
   committed_ = true;
-  flush_directory(target_);
+  if (flush == Flush::to_disk) flush_directory(target_);
 }
 
-void write_file(const fs::path& target, std::string_view content) {
+void write_file(const fs::path& target, std::string_view content, Flush flush) {
   if (!is_stream(target)) {
     AtomicFile file(target);
     file.append(content);
-    file.commit();
+    file.commit(flush);
     return;
   }
   const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);

@@ -99,7 +99,7 @@ void write_unit(const std::filesystem::path& folder, const UnitRecord& record) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   if (error) throw machine_error(path.parent_path().string(), "cannot create the folder", error.value());
-  write_file(path, to_bytes(record));
+  write_file(path, to_bytes(record), Flush::none);
 }
 
 UnitRecord read_unit(const std::filesystem::path& folder, const std::string& id,

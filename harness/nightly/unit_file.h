@@ -27,7 +27,8 @@ UnitRecord parse_unit(std::string_view bytes, const std::string& place);
 /// FOLDER/cases/ID.unit.
 std::filesystem::path unit_path(const std::filesystem::path& folder, const std::string& id);
 
-/// Whole or not at all, folders made; MachineError.
+/// Whole or not at all, folders made; MachineError. Not flushed to the disk, as a file that a loss of power damages is refused
+/// by its checksum and its unit run again.
 void write_unit(const std::filesystem::path& folder, const UnitRecord& record);
 /// InputError: missing, damaged, another unit's, or of another identity.
 UnitRecord read_unit(const std::filesystem::path& folder, const std::string& id, const std::string& identity);

@@ -261,7 +261,6 @@ TEST(Campaign, SameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(a.speed_stddev, b.speed_stddev);
     EXPECT_EQ(a.static_speed, b.static_speed);
     EXPECT_EQ(a.time_step, b.time_step);
-    EXPECT_EQ(a.energy_drift, b.energy_drift);
     ASSERT_EQ(a.recording.signals.size(), b.recording.signals.size());
     for (std::size_t p = 0; p < a.recording.signals.size(); ++p)
       EXPECT_EQ(a.recording.signals[p].values, b.recording.signals[p].values);

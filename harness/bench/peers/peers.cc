@@ -44,7 +44,7 @@ SimulationResult run_ddem(const Peer& peer, const PeerScene& scene) {
   in.initial = scene.start;
   in.time_step = scene.time_step;
   in.steps = scene.steps;
-  in.energy_samples = 1;
+  in.energy_samples = 0;
   return simulate(scene.assembly, in);
 }
 
