@@ -10,7 +10,7 @@ try:
     import h5py
     import meshio
 except ImportError as error:
-    print(f"skipped: {error}; Debian has python3-meshio")
+    print(f"skipped: {error}; Debian has python3-meshio and python3-h5py")
     sys.exit(77)
 import numpy as np
 
