@@ -64,8 +64,6 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform,
                            bonds_.stretch.empty(), pulls_, watch_.has_value()},
                           isa);
-  automatic_steps_ = input.steps_a_sweep == 0;
-  steps_at_once_ = automatic_steps_ ? worthwhile_steps() : input.steps_a_sweep;
   move_ = implicit_ && !gradients_ ? kernels_.respond : kernels_.step;
   load(input.initial);
   if (input.follow_front) find_fronts();
@@ -73,6 +71,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   bind();
   pull(0, 0, bonds_.slices);
   start_leapfrog();
+  plan_sweeps(input);
   begin_step();
 }
 
@@ -151,28 +150,30 @@ void Stepper::begin_step() {
 
 void Stepper::begin_strains() {
   stages_done_ = 0;
+  in_one_sweep_ = strains_fit_a_sweep();
   if (gradients_) {
     begin_stage(Stage::residual);
-  } else if (strain_stages_ == 0) {
+  } else if (strain_stages_ == 0 || in_one_sweep_) {
     begin_stage(Stage::motion);
   } else {
     begin_stage(implicit_ ? Stage::source : Stage::evaluate);
   }
 }
 
-/// The iteration at hand: eps <- eps + w (f - eps - T eps). The first two relaxations from zero are one sweep of f.
-void Stepper::relax() {
-  const bool first = stages_done_ == 1;
-  const double w = relaxations_[stages_done_], before = relaxations_[0];
-  data_.strain = first ? source_.data() : strain_.data();
-  data_.of_strain = first ? 0.0 : 1.0 - w;
-  data_.of_source = first ? before + w * (1.0 - before) : w;
-  data_.of_coupling = first ? w * before : w;
+/// For an iteration, from 1 on: eps <- eps + w (f - eps - T eps). The first two relaxations from zero are one sweep of f.
+StepData Stepper::relaxed(StepData d, int iteration) const {
+  const bool first = iteration == 1;
+  const double w = relaxations_[iteration], before = relaxations_[0];
+  if (first) d.strain = source_.data();
+  d.of_strain = first ? 0.0 : 1.0 - w;
+  d.of_source = first ? before + w * (1.0 - before) : w;
+  d.of_coupling = first ? w * before : w;
+  return d;
 }
 
-SliceFunction Stepper::iteration() const {
-  if (stages_done_ == 1) return kernels_.first_iterate;
-  return stages_done_ + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate;
+SliceFunction Stepper::iteration(int iteration) const {
+  if (iteration == 1) return kernels_.first_iterate;
+  return iteration + 1 == strain_stages_ ? kernels_.last_iterate : kernels_.iterate;
 }
 
 void Stepper::begin_stage(Stage stage) {
@@ -181,11 +182,11 @@ void Stepper::begin_stage(Stage stage) {
     look_for_contacts();
     if (implicit_ && !contacts_agree()) return begin_strains();
   }
-  if (stage == Stage::iterate) relax();
+  if (stage == Stage::iterate) data_ = relaxed(data_, stages_done_);
   switch (stage) {
     case Stage::evaluate: due_ = kernels_.evaluate; break;
     case Stage::source: due_ = kernels_.source; break;
-    case Stage::iterate: due_ = iteration(); break;
+    case Stage::iterate: due_ = iteration(stages_done_); break;
     case Stage::residual: due_ = kernels_.residual; break;
     case Stage::apply: due_ = kernels_.apply; break;
     case Stage::advance: due_ = kernels_.advance; break;
@@ -221,6 +222,7 @@ void Stepper::share_among(int threads) {
   range_begin_.resize(static_cast<std::size_t>(std::min(threads, std::max(1, bonds_.slices))) + 1);
   share(front);
   if (automatic_steps_) steps_at_once_ = worthwhile_steps();
+  if (one_sweep_pays_ && front == bonds_.slices) begin_strains();
 }
 
 void Stepper::take_steps(int count) {

@@ -82,12 +82,17 @@ class Stepper {
   void find_fronts();
   void follow_front();
   void share(int front);
-  void relax();
-  SliceFunction iteration() const;
-  // Kick and drift, stepper_sweeps.cc.
+  StepData relaxed(StepData data, int iteration) const;
+  SliceFunction iteration(int iteration) const;
+  // Sweeps, stepper_sweeps.cc.
+  void plan_sweeps(const SimulationInput& input);
+  bool strains_fit_a_sweep() const;
+  int passes_a_step() const { return in_one_sweep_ ? strain_stages_ + 2 : 2; }
   int worthwhile_steps() const;
   bool drifts_with_kick() const;
   StepData data_of(int level);
+  StepData data_of_strains(int stage);
+  void pass(int index, int begin, int end);
   void sweep(int begin, int end, bool seam_before, bool seam_after);
   void close_seam(int slice);
   void drift(int level, int begin, int end);
@@ -135,7 +140,8 @@ class Stepper {
   std::vector<int> fronts_;       // by sweep (front.h)
   std::size_t sweep_ = 0;
   int reach_ = 0;  // slices
-  bool automatic_steps_ = true;
+  bool automatic_steps_ = true, one_sweep_pays_ = false;
+  bool in_one_sweep_ = false;  // implicit: strains and motion of the step at hand
   int steps_at_once_ = 1, steps_due_ = 1, steps_taken_ = 1;
   Taps taps_;
   AlignedVector<double> fastest_, most_strained_;
