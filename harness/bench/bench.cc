@@ -41,7 +41,8 @@ Json kernel_json(const KernelTime& k) {
           {"nanoseconds_per_bond_step", k.nanoseconds_per_bond_step},
           {"best_nanoseconds_per_bond_step", k.best},
           {"over_dem", k.over_dem},
-          {"rounds", k.rounds}};
+          {"rounds", k.rounds},
+          {"bytes_per_bond", k.bytes_per_bond}};
 }
 
 Json fem_kernel_json(const FemKernelTime& k) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "harness/bench/roofline.h"
 #include "harness/provenance/provenance.h"
 
 namespace ddem::harness::bench {
@@ -50,9 +51,9 @@ reports::Table kernel_table(const std::vector<KernelTime>& kernels) {
   reports::Table t;
   t.caption = "Median of repetitions in random order (Google Benchmark) at 0.3 of the critical step; setting up is not counted. Over DEM (of deformable discs "
               "with k_t = 0: over DEM with k_t = 0): ratio of the medians.";
-  t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best", "ns", 3}, {"over DEM", "", 3}};
+  t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best", "ns", 3}, {"over DEM", "", 3}, {"arrays", "bytes a bond", 3}};
   for (const KernelTime& k : kernels) {
-    t.rows.push_back({k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem});
+    t.rows.push_back({k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem, k.bytes_per_bond});
   }
   return t;
 }
@@ -126,7 +127,10 @@ reports::Report bench_report(const BenchResults& r) {
   report.summary = {fmt::format("Memory bandwidth (STREAM triad): {:.1f} GB/s with one thread, {:.1f} GB/s at most ({} threads). Times are of this machine, "
                                 "at this hour; ratios between what ran in turns travel better.",
                                 r.triad_one_thread, r.triad, r.triad_threads)};
-  if (!r.kernels.empty()) report.sections.push_back({.heading = "Cost of a bond and step", .tables = {kernel_table(r.kernels)}});
+  if (!r.kernels.empty()) {
+    const std::vector<Bandwidth> bandwidths{{1, r.triad_one_thread}, {r.triad_threads, r.triad}};
+    report.sections.push_back({.heading = "Cost of a bond and step", .figures = {roofline_figure(r.kernels, bandwidths)}, .tables = {kernel_table(r.kernels)}});
+  }
   if (!r.fem_kernels.empty()) report.sections.push_back({.heading = "Speed of the finite elements", .tables = {fem_kernel_table(r.fem_kernels)}});
   if (!r.work_precision.empty()) {
     reports::Section section{.heading = "Work-precision", .figures = {precision_figure(r.work_precision)}, .tables = {precision_table(r.work_precision)}};

@@ -131,7 +131,7 @@ std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const
         const double time = median(seconds[c]);
         times.push_back({all[c].law.name, all[c].per_bond, assembly.size(), assembly.bonds.size(), threads, 1e9 * time / bond_steps,
                          1e9 * *std::min_element(seconds[c].begin(), seconds[c].end()) / bond_steps, time / median(seconds[all[c].reference]),
-                         plan.rounds});
+                         plan.rounds, static_cast<double>(all[c].stepper->array_bytes()) / static_cast<double>(assembly.bonds.size())});
       }
     }
     progress();

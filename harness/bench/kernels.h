@@ -19,6 +19,7 @@ struct KernelTime {
   /// Ratio of medians: times DEM with uniform stiffness and shear, of a deformable law without shear times DEM without.
   double over_dem = 0.0;
   int rounds = 0;
+  double bytes_per_bond = 0.0;  ///< of the solver's arrays
 };
 
 struct KernelPlan {

@@ -35,6 +35,8 @@ TEST(Kernels, EveryLawIsTimedOnceForEachNumberOfThreads) {
     EXPECT_GT(k.over_dem, 0.0);
     EXPECT_NEAR(static_cast<double>(k.discs), 240.0, 20.0);
     EXPECT_GT(k.bonds, 2 * k.discs);
+    EXPECT_GT(k.bytes_per_bond, 60.0);  // two half-bonds of 20 bytes, and more than a third of a disc's 60
+    EXPECT_LT(k.bytes_per_bond, 600.0);
     if (k.law == "DEM" && !k.per_bond_stiffness) {
       EXPECT_EQ(k.over_dem, 1.0);
     }
