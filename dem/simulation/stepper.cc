@@ -222,7 +222,7 @@ void Stepper::share_among(int threads) {
   range_begin_.resize(static_cast<std::size_t>(std::min(threads, std::max(1, bonds_.slices))) + 1);
   share(front);
   if (automatic_steps_) steps_at_once_ = worthwhile_steps();
-  if (one_sweep_pays_ && front == bonds_.slices) begin_strains();
+  if (one_sweep_pays_ && front == bonds_.slices) begin_strains();  // other shares may leave room for its seams, or none
 }
 
 void Stepper::take_steps(int count) {

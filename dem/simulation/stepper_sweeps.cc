@@ -6,7 +6,6 @@
 // a reach more with every pass; when all have come to their ends, these seams are closed.
 
 #include <algorithm>
-#include <utility>
 
 #include "dem/simulation/stepper.h"
 
@@ -106,14 +105,13 @@ StepData Stepper::data_of(int level) {
 /// For a stage of implicit strains in the sweep of the motion: they change their places with every stage, so that the last
 /// one leaves them where the motion reads them.
 StepData Stepper::data_of_strains(int stage) {
+  const bool back = (strain_stages_ - stage) % 2 == 1;
+  auto &from = back ? strain_next_ : strain_, &to = back ? strain_ : strain_next_;
+  auto &press_from = back ? press_next_ : press_, &press_to = back ? press_ : press_next_;
   StepData d = data_;
-  const bool to_next = (strain_stages_ - stage) % 2 == 0;
-  d.strain = strain_.data(), d.strain_next = strain_next_.data();
-  d.press = press_.data(), d.press_next = press_next_.data();
-  if (!to_next) d.strain = strain_next_.data(), d.strain_next = strain_.data(), std::swap(d.press, d.press_next);
-  if (stage > 0) return relaxed(d, stage);
-  d.press = d.press_next;
-  return d;
+  d.strain = from.data(), d.strain_next = to.data();
+  d.press = (stage == 0 ? press_to : press_from).data(), d.press_next = press_to.data();  // the source stage writes its own press
+  return stage == 0 ? d : relaxed(d, stage);
 }
 
 /// Of a sweep, whose steps are so many passes each: the strains of implicit runs, the kick, the drift.

@@ -45,28 +45,16 @@ void expect_timed_but_unmoved(const PeerTime& t) {
   EXPECT_NEAR(t.difference, 1.0, 1e-6);  // ddem moved
 }
 
-TEST(Peers, LammpsIsTimedByItsOwnWord) {
-  const TemporaryFolder folder("ddem-peers-test");
-  // Knows its version; writes the positions that it was given as its last.
-  const Peer lmp = played_by(lammps(), folder, R"(if [ "$1" = -h ]; then
+/// Knows its version; writes the positions that it was given as its last.
+const char* const kPlaysLammps = R"(if [ "$1" = -h ]; then
   printf 'Large-scale Atomic/Molecular Massively Parallel Simulator - 1 Apr 2030\n'
   exit 0
 fi
 grep -q '^run 40$\|^run 10$' "$2" || exit 7
 awk 'BEGIN { print "ITEM: ATOMS id x y" } /^Atoms/ { atoms = 1 } /^Velocities/ { atoms = 0 } atoms && NF == 6 { print $1, $4, $5 }' strip.data > end.txt
 echo 'Loop time of 0.002 on 1 procs for 40 steps with 682 atoms'
-)");
-  const Peers peers = time_peers({{lmp, kSizes}}, [] {});
-  EXPECT_EQ(peers.reason, "");
-  ASSERT_EQ(peers.times.size(), 2u);
-  EXPECT_EQ(peers.times[0].program, "LAMMPS");
-  EXPECT_EQ(peers.times[0].version, "1 Apr 2030");
-  expect_timed_but_unmoved(peers.times[0]);
-}
-
-TEST(Peers, YadeIsTimedByItsOwnWord) {
-  const TemporaryFolder folder("ddem-peers-test");
-  const Peer play = played_by(yade(), folder, R"(if [ "$1" = --version ]; then
+)";
+const char* const kPlaysYade = R"(if [ "$1" = --version ]; then
   echo 'Yade version: 2030.01 '
   exit 0
 fi
@@ -74,24 +62,30 @@ grep -q '^for step in range(40):\|^for step in range(10):' "$4" || exit 7
 awk '{ print 0, 0 }' discs.txt > end.txt
 echo 'Welcome to Yade'
 echo 'Loop time 0.002 s'
-)");
-  const Peers peers = time_peers({{play, kSizes}}, [] {});
+)";
+
+TEST(Peers, AreTimedByTheirOwnWord) {
+  const TemporaryFolder folder("ddem-peers-test");
+  const Peers peers = time_peers({{played_by(lammps(), folder, kPlaysLammps), kSizes}, {played_by(yade(), folder, kPlaysYade), kSizes}}, [] {});
   EXPECT_EQ(peers.reason, "");
-  ASSERT_EQ(peers.times.size(), 2u);
-  EXPECT_EQ(peers.times[0].program, "Yade");
-  EXPECT_EQ(peers.times[0].version, "2030.01");
-  expect_timed_but_unmoved(peers.times[0]);
+  ASSERT_EQ(peers.times.size(), 4u);
+  EXPECT_EQ(peers.times[0].program, "LAMMPS");
+  EXPECT_EQ(peers.times[0].version, "1 Apr 2030");
+  EXPECT_EQ(peers.times[2].program, "Yade");
+  EXPECT_EQ(peers.times[2].version, "2030.01");
+  for (const int of_682_discs : {0, 2}) expect_timed_but_unmoved(peers.times[of_682_discs]);
 }
 
 TEST(Peers, FailingIsAReasonAndTheOthersAreTimed) {
-  const TemporaryFolder folder("ddem-peers-test");
-  const Peer lmp = played_by(lammps(), folder, "[ \"$1\" = -h ] || echo 'ERROR: Unrecognized bond style' >&2\n[ \"$1\" = -h ]\n");
-  const Peer speechless = played_by(yade(), folder, "echo 'Loop time soon s'\n");
-  const Peers peers = time_peers({{lmp, kSizes}, {speechless, kSizes}}, [] {});
-  EXPECT_TRUE(peers.times.empty());
+  const TemporaryFolder folder("ddem-peers-test"), another("ddem-peers-test");
+  const Peer failing = played_by(lammps(), folder, "[ \"$1\" = -h ] || echo 'ERROR: Unrecognized bond style' >&2\n[ \"$1\" = -h ]\n");
+  const Peer vague = played_by(yade(), folder, "echo 'Loop time soon s'\n");
+  const Peers peers = time_peers({{failing, kSizes}, {vague, kSizes}, {played_by(yade(), another, kPlaysYade), kSizes}}, [] {});
   for (const char* said : {"exit code 1", "Unrecognized bond style", "its time cannot be read"}) {
     EXPECT_NE(peers.reason.find(said), std::string::npos) << peers.reason;
   }
+  ASSERT_EQ(peers.times.size(), 2u);
+  expect_timed_but_unmoved(peers.times[0]);
 }
 
 /// Real ones, where they are installed: the same motion, so that what is timed is the same work.
