@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 #include "dem/simulation/simulation.h"
 #include "dem/simulation/stepper.h"
@@ -265,6 +266,23 @@ TEST(Conservation, EnergiesAddUpToTheInvariant) {
     return (e.kinetic + e.contact + e.particle) - e.invariant;
   };
   EXPECT_NEAR(excess(1.0) / excess(0.5), 4.0, 1e-6);
+}
+
+TEST(Energies, NotAskedForAreNotTakenAndTheMotionIsTheSame) {
+  const Assembly a = test::random_free_strip();
+  SimulationInput in = input_for(a, {"", {kNormalStiffness, 0.5, Kinematics::linear}, implicit(Correction::full, 0.25)}, 50);
+  in.initial.ux = test::Noise(2).vector(a.size(), 1e-9);
+  in.energy_samples = 5;
+  const SimulationResult with = simulate(a, in);
+  in.energy_samples = 0;
+  const SimulationResult without = simulate(a, in);
+  EXPECT_GE(with.energy.size(), 5u);
+  EXPECT_TRUE(without.energy.empty());
+  EXPECT_FALSE(without.energy_drift.has_value());
+  EXPECT_EQ(with.final_state.ux, without.final_state.ux);
+  EXPECT_EQ(with.final_state.omega, without.final_state.omega);
+  in.energy_samples = -1;
+  EXPECT_THROW(simulate(a, in), std::invalid_argument);
 }
 
 TEST(Conservation, LaggedSchemeLosesEnergy) {
