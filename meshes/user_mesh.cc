@@ -1,113 +1,154 @@
 #include "meshes/user_mesh.h"
 
-#include <array>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <map>
 #include <string>
 
-#include "meshes/gmsh_session.h"
-#include "meshes/strip_mesh.h"
+#include "meshes/mesh_draft.h"
+#include "meshes/msh_file.h"
+#include "meshes/msh_source.h"
+#include "meshes/outline.h"
+#include "meshes/periodic_edges.h"
+#include "meshes/quad_shapes.h"
 
 namespace ddem::meshes {
 namespace {
 
-constexpr std::pair<const char*, unsigned> edge_names[] = {
-    {"left", left_id}, {"right", right_id}, {"bottom", bottom_id}, {"top", top_id}};
+constexpr std::string_view first_word = "$MeshFormat";
+constexpr off_t largest_file = off_t{1} << 31;
 
-using Tag = std::size_t;
-
-// Corners of all elements of one entity that have `corners` of them; MeshError for others.
-std::vector<Tag> corner_nodes(int dimension, int entity, int corners, const char* wanted) {
-  std::vector<int> types;
-  std::vector<std::vector<Tag>> elements, nodes;
-  gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
-  std::vector<Tag> result;
-  for (std::size_t k = 0; k < types.size(); ++k) {
-    std::string name;
-    int element_dimension = 0, order = 0, count = 0, primary = 0;
-    std::vector<double> places;
-    gmsh::model::mesh::getElementProperties(types[k], name, element_dimension, order, count, places, primary);
-    if (primary != corners) throw MeshError("holds elements \"" + name + "\": a mesh must consist of " + wanted);
-    for (std::size_t e = 0; e < elements[k].size(); ++e) {
-      const auto first = nodes[k].begin() + static_cast<std::ptrdiff_t>(e * static_cast<std::size_t>(count));
-      result.insert(result.end(), first, first + corners);
-    }
-  }
-  return result;
-}
-
-class Reader {
+class Descriptor {
  public:
-  Reader() {
-    std::vector<Tag> tags;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-    for (std::size_t k = 0; k < tags.size(); ++k) {
-      place_[tags[k]] = {coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]};
-    }
+  // Not to wait for the other end of a pipe.
+  explicit Descriptor(const std::filesystem::path& file) : id_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (id_ >= 0) ::close(id_);
   }
-
-  QuadMesh read() {
-    const std::vector<Tag> corners = corner_nodes(2, -1, 4, "quadrilaterals");
-    if (corners.empty()) throw MeshError("holds no quadrilaterals");
-    for (std::size_t k = 0; k < corners.size(); k += 4) add_quad(&corners[k]);
-    for (const auto& [name, id] : edge_names) add_edges(name, id);
-    return std::move(mesh_);
-  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int id() const { return id_; }
 
  private:
-  unsigned vertex(Tag tag) {
-    const auto [entry, fresh] = number_.try_emplace(tag, static_cast<unsigned>(mesh_.vertices.size()));
-    if (fresh) {
-      const std::array<double, 3>& p = place_.at(tag);
-      if (p[2] != 0.0) throw MeshError("is not plane: a node has z = " + std::to_string(p[2]));
-      mesh_.vertices.push_back({p[0], p[1]});
-    }
-    return entry->second;
-  }
-
-  void add_quad(const Tag* tags) {
-    std::array<unsigned, 4> quad{vertex(tags[0]), vertex(tags[1]), vertex(tags[2]), vertex(tags[3])};
-    const auto &a = mesh_.vertices[quad[0]], &b = mesh_.vertices[quad[1]], &c = mesh_.vertices[quad[2]];
-    if ((b[0] - a[0]) * (c[1] - b[1]) < (b[1] - a[1]) * (c[0] - b[0])) std::swap(quad[1], quad[3]);
-    mesh_.quads.push_back(quad);
-  }
-
-  void add_edges(const std::string& name, unsigned id) {
-    gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups, 1);
-    std::size_t found = 0;
-    for (const auto& [dimension, tag] : groups) {
-      std::string group;
-      gmsh::model::getPhysicalName(dimension, tag, group);
-      if (group != name) continue;
-      std::vector<int> entities;
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-      for (const int entity : entities) {
-        const std::vector<Tag> ends = corner_nodes(1, entity, 2, "lines");
-        for (std::size_t k = 0; k < ends.size(); k += 2, ++found) {
-          if (!number_.contains(ends[k]) || !number_.contains(ends[k + 1])) throw MeshError("\"" + name + "\" is no edge of its quadrilaterals");
-          mesh_.edges.push_back({{vertex(ends[k]), vertex(ends[k + 1])}, id});
-        }
-      }
-    }
-    if (found == 0) throw MeshError("has no physical curve \"" + name + "\"; it must name left, right, bottom and top");
-  }
-
-  std::map<Tag, std::array<double, 3>> place_;
-  std::map<Tag, unsigned> number_;
-  QuadMesh mesh_;
+  int id_;
 };
+
+// No more than its first word of what is no mesh.
+std::string read_bytes(const std::filesystem::path& file) {
+  const Descriptor descriptor(file);
+  if (descriptor.id() < 0) throw MeshError(errno == ENOENT ? "is no file" : fmt::format("cannot be read: {}", std::strerror(errno)));
+  struct stat status {};
+  if (::fstat(descriptor.id(), &status) != 0 || !S_ISREG(status.st_mode)) throw MeshError("is no file");
+  if (status.st_size == 0) throw MeshError("is empty");
+  if (status.st_size > largest_file) throw MeshError("is larger than 2 GiB");
+  std::string bytes;
+  std::size_t wanted = first_word.size();
+  for (ssize_t got = 1; got > 0 && bytes.size() < wanted;) {
+    const std::size_t have = bytes.size();
+    bytes.resize(wanted);
+    got = ::read(descriptor.id(), bytes.data() + have, wanted - have);
+    if (got < 0) throw MeshError(fmt::format("cannot be read: {}", std::strerror(errno)));
+    bytes.resize(have + static_cast<std::size_t>(got));
+    if (bytes == first_word) wanted = static_cast<std::size_t>(status.st_size);
+  }
+  return bytes;
+}
+
+// Of the nodes that elements have; others are points of construction.
+MeshDraft draft_of(const MshFile& file) {
+  MeshDraft draft;
+  std::map<MshFile::Tag, unsigned> number;
+  for (const MshFile::Quad& quad : file.quads) {
+    auto& corners = draft.mesh.quads.emplace_back();
+    for (int k = 0; k < 4; ++k) {
+      const auto [entry, fresh] = number.try_emplace(quad.corners[k], static_cast<unsigned>(draft.mesh.vertices.size()));
+      corners[k] = entry->second;
+      if (!fresh) continue;
+      const auto& place = file.nodes.at(quad.corners[k]);
+      draft.node_tags.push_back(quad.corners[k]);
+      draft.mesh.vertices.push_back({place[0], place[1]});
+    }
+    draft.quad_tags.push_back(quad.tag);
+    draft.surfaces.push_back(quad.surface);
+  }
+  return draft;
+}
+
+std::string size_remedy(const QuadMesh& mesh, const StripSpec& strip) {
+  const double factor = mesh.width / strip.width;
+  const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-3 * std::abs(b); };
+  if (!near(mesh.length / strip.length, factor) || near(factor, 1.0)) return "";
+  return fmt::format("; all of it is {:.3g} times as large: coordinates are metres (gmsh: Mesh.ScalingFactor = {:.3g})", factor, 1.0 / factor);
+}
+
+// Coordinates from the lower left corner, and those on a side exactly so.
+void place_on_strip(MeshDraft& draft, const StripSpec& strip) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  QuadMesh& mesh = draft.mesh;
+  std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
+  for (const auto& vertex : mesh.vertices) {
+    for (int c = 0; c < 2; ++c) {
+      low[c] = std::min(low[c], vertex[c]);
+      high[c] = std::max(high[c], vertex[c]);
+    }
+  }
+  draft.origin = low;
+  mesh.length = high[0] - low[0];
+  mesh.width = high[1] - low[1];
+  const bool fits = std::abs(mesh.length - strip.length) <= side_tolerance * strip.length &&
+                    std::abs(mesh.width - strip.width) <= side_tolerance * strip.width;
+  if (!fits) {
+    throw MeshError(fmt::format("is {:.9g} m long and {:.9g} m wide, the strip {:.9g} m and {:.9g} m{}", mesh.length, mesh.width,
+                                strip.length, strip.width, size_remedy(mesh, strip)));
+  }
+  const double tolerance = side_tolerance * mesh.width;
+  for (auto& vertex : mesh.vertices) {
+    for (int c = 0; c < 2; ++c) {
+      const double size = c == 0 ? mesh.length : mesh.width;
+      vertex[c] -= low[c];
+      if (vertex[c] <= tolerance) vertex[c] = 0.0;
+      if (vertex[c] >= size - tolerance) vertex[c] = size;
+    }
+  }
+}
+
+void check_plane(const MeshDraft& draft, const MshFile& file, const StripSpec& strip) {
+  Findings findings;
+  for (unsigned v = 0; v < draft.node_tags.size(); ++v) {
+    const double z = file.nodes.at(draft.node_tags[v])[2];
+    if (std::abs(z) <= side_tolerance * strip.width) continue;
+    findings.add("z", [&] { return fmt::format("node {} at {} has z = {:.6g} m: the strip lies in the plane z = 0", draft.node_tags[v], draft.place(v), z); });
+  }
+  findings.throw_if_any();
+}
 
 }  // namespace
 
-QuadMesh read_user_mesh(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw MeshError("is no file");
-  return with_gmsh<MeshError>([&] {
-    gmsh::open(file.string());
-    return Reader().read();
-  });
+QuadMesh parse_user_mesh(std::string_view bytes, const StripSpec& strip) {
+  if (!bytes.starts_with(first_word)) {
+    throw MeshError(fmt::format("begins with \"{}\" instead of {}: this is no mesh of gmsh (of a .geo file, gmsh -2 makes one)",
+                                printable(bytes.substr(0, first_word.size())), first_word));
+  }
+  const MshFile file = parse_msh(bytes);
+  if (file.quads.empty()) throw MeshError("holds no quadrilaterals (where there are physical groups gmsh saves no more than them: make the surface one, too)");
+  MeshDraft draft = draft_of(file);
+  check_plane(draft, file, strip);
+  place_on_strip(draft, strip);
+  check_quads(draft);
+  check_outline(draft, file);
+  if (strip.periodic) match_periodic_edges(draft);
+  return std::move(draft.mesh);
+}
+
+QuadMesh read_user_mesh(const std::filesystem::path& file, const StripSpec& strip) {
+  return parse_user_mesh(read_bytes(file), strip);
 }
 
 }  // namespace ddem::meshes

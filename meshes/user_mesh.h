@@ -1,28 +1,38 @@
 #pragma once
-// A user's mesh of the strip: a .msh file of any version that gmsh reads, with its edges as physical groups.
+// A user's mesh of the strip: a .msh file of quadrilaterals with its edges as physical curves.
 
 #include <array>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "meshes/mesh_error.h"
+
 namespace ddem::meshes {
 
-/// What is wrong with the file, and what would be right.
-class MeshError : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
+/// Places are compared with the sides to this part of the width, nodes of periodic edges with each other to this part of
+/// the shortest edge beside them: gmsh's own differ by up to 1e-9 of the length.
+inline constexpr double side_tolerance = 1e-6, partner_tolerance = 1e-4;
+
+/// What the mesh is to be.
+struct StripSpec {
+  double length = 0.0, width = 0.0;  ///< m
+  bool periodic = false;             ///< top and bottom
 };
 
 struct QuadMesh {
-  std::vector<std::array<double, 2>> vertices;                     ///< m
+  double length = 0.0, width = 0.0;                                ///< m, of the mesh itself
+  std::vector<std::array<double, 2>> vertices;                     ///< m, from the lower left corner
   std::vector<std::array<unsigned, 4>> quads;                      ///< vertices counterclockwise
-  std::vector<std::pair<std::array<unsigned, 2>, unsigned>> edges;  ///< vertices, and left_id .. top_id (strip_mesh.h)
+  std::vector<std::pair<std::array<unsigned, 2>, unsigned>> edges;  ///< of the outline: vertices, and left_id .. top_id (strip_mesh.h)
 };
 
-/// Quadrilaterals and the physical curves "left", "right", "bottom", "top" of a plane mesh in metres. Curved elements
-/// are taken by their corners. Throws MeshError if there are no such curves, or elements that are no quadrilaterals.
-QuadMesh read_user_mesh(const std::filesystem::path& file);
+/// Reads and checks it: the elements cover the rectangle once, sharing whole edges; each edge of the outline is in that one
+/// of the physical curves "left", "right", "bottom", "top" on whose side it lies. Nodes on the sides are then moved onto
+/// them, those of a periodic top over their partners. Elements of higher order are taken by their corners. Throws MeshError.
+QuadMesh read_user_mesh(const std::filesystem::path& file, const StripSpec& strip);
+
+/// The same from the bytes of a file.
+QuadMesh parse_user_mesh(std::string_view bytes, const StripSpec& strip);
 
 }  // namespace ddem::meshes

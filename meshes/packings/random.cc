@@ -34,6 +34,11 @@ constexpr double kRoughBalance = 1e-3, kForceBalance = 1e-4;
 // (measured: 1.3 leaves a tenth, 1.6 nothing). Below the shortest step the search has lost its way.
 constexpr double kShrink = 1.0, kShortestStep = 1e-2;
 
+// Forces summed in another order round differently. Radii are scaled one after the other, and round alike.
+// The last balancing may press a little harder.
+constexpr double kSameBalance = 1.01 * kForceBalance, kSameOverlap = 1.1 * kOverlap, kRoundOff = 1e-12;
+constexpr double kFarthestMove = 0.15;  // of the cell: see is_near()
+
 constexpr int kPatience = 60000;          // iterations of one minimisation: most take a few thousand
 constexpr int kMostIterations = 1000000;  // in all: 682 discs take 1e4, 1e4 discs take 6e4
 constexpr int kMostDiscs = 100000;
@@ -202,7 +207,82 @@ Packing tidied(const Packing& packing) {
   return result;
 }
 
+bool is_inside(const Packing& packing) {
+  const auto inside = [](const std::vector<double>& centres, double end) {
+    return std::ranges::all_of(centres, [&](double c) { return c >= 0.0 && c <= end; });  // not a NaN
+  };
+  return inside(packing.x, packing.length) && inside(packing.y, packing.width) && std::ranges::is_sorted(packing.x);
+}
+
+/// The places of discs from the smallest to the largest.
+std::vector<std::size_t> by_radius(const Packing& packing) {
+  std::vector<std::size_t> order(packing.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return packing.radius[i]; });
+  return order;
+}
+
+/// One factor times the radii of the start.
+bool has_radii_of(const Packing& start, const Packing& packing) {
+  if (!std::ranges::all_of(packing.radius, [&](double r) { return r > 0.0 && r < packing.length; })) return false;
+  const std::vector<std::size_t> before = by_radius(start), now = by_radius(packing);
+  const double factor = packing.radius[now.back()] / start.radius[before.back()];
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const double expected = factor * start.radius[before[k]];
+    if (std::abs(packing.radius[now[k]] - expected) > kRoundOff * expected) return false;
+  }
+  return true;
+}
+
+/// Whether no place holds more discs than fit there: overlaps are looked for pair by pair.
+bool is_spread(const Packing& packing) {
+  const auto [smallest, largest] = std::ranges::minmax(packing.radius);
+  const double side = 2.0 * largest, across = (side + 2.0 * smallest) / smallest;
+  std::vector<std::pair<double, double>> cells;
+  for (std::size_t i = 0; i < packing.size(); ++i) cells.emplace_back(std::floor(packing.x[i] / side), std::floor(packing.y[i] / side));
+  std::ranges::sort(cells);
+  const auto most = static_cast<std::size_t>(across * across / std::numbers::pi) + 1;
+  for (std::size_t k = most; k < cells.size(); ++k) {
+    if (cells[k] == cells[k - most]) return false;
+  }
+  return true;
+}
+
+/// Whether discs, told by their radii, are near where they started in x, or in y: of the middle one the distance is below a tenth
+/// of the cell's length, or width, in 112 packings of 40 to 2500 discs, and about a quarter of it in those of other seeds.
+bool is_near(const std::vector<double>& start, const std::vector<std::size_t>& before, const std::vector<double>& centres,
+             const std::vector<std::size_t>& now, double size, double period) {
+  std::vector<double> moves;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const double move = centres[now[k]] - start[before[k]];
+    moves.push_back(std::abs(period > 0.0 ? move - period * std::round(move / period) : move));
+  }
+  const auto middle = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() / 2);
+  std::ranges::nth_element(moves, middle);
+  return *middle < kFarthestMove * size;
+}
+
+bool is_near(const Packing& start, const Packing& packing) {
+  const std::vector<std::size_t> before = by_radius(start), now = by_radius(packing);
+  return is_near(start.x, before, packing.x, now, packing.length, packing.period.x) &&
+         is_near(start.y, before, packing.y, now, packing.width, packing.period.y);
+}
+
 }  // namespace
+
+bool can_be_jammed_from(const Packing& packing, const RandomSpec& spec) {
+  check_spec(spec);
+  const Packing start = random_points(spec);
+  if (packing.size() != start.size() || packing.y.size() != start.size() || packing.radius.size() != start.size()) return false;
+  if (packing.length != start.length || packing.width != start.width) return false;
+  if (packing.period.x != start.period.x || packing.period.y != start.period.y) return false;
+  if (!is_inside(packing) || !has_radii_of(start, packing) || !is_spread(packing)) return false;
+  const bool told_apart = (spec.radius_ratio - 1.0) / spec.discs > kRoundOff;
+  if (told_apart && !is_near(start, packing)) return false;
+  const double unit = mean_radius(packing);
+  const SoftDiscs::State state = SoftDiscs(packing, spec.walls).minimise({kSameBalance, 0.0, 1});
+  return state.converged && state.largest_overlap > kNoOverlap * unit && state.largest_overlap <= kSameOverlap * unit;
+}
 
 Packing random_jammed(const RandomSpec& spec) {
   check_spec(spec);

@@ -29,6 +29,12 @@ struct RandomSpec {
 /// balance was found within 1e6 iterations of the minimiser.
 Packing random_jammed(const RandomSpec& spec);
 
+/// Whether a packing of unknown origin can be random_jammed(spec): numbers are finite, centres inside and in order, radii
+/// those of the spec, overlaps and forces what is promised above, and discs near where the seed puts them before they are
+/// jammed (not for equal discs, which cannot be told apart). A thousandth of the time that jamming takes. A disc that
+/// touches no other may still have been moved within its cage.
+bool can_be_jammed_from(const Packing& packing, const RandomSpec& spec);
+
 /// The bits of one small packing, which a test compares. Whatever changes the packing of a spec changes this number too:
 /// part of the name under which a packing may be stored.
 inline constexpr std::uint64_t kJammingBits = 17593074311740711017ULL;

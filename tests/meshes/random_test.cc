@@ -281,5 +281,73 @@ TEST(Rng, IsUniform) {
   for (const int count : counts) EXPECT_NEAR(count, n / 7.0, 5 * std::sqrt(n * 6.0 / 49.0));
 }
 
+/// A change of a packing that is not one of jamming.
+struct Forgery {
+  const char* name;
+  void (*forge)(Packing&);
+};
+constexpr Forgery kForgeries[] = {
+    {"smaller", [](Packing& p) { for (double& r : p.radius) r *= 0.97; }},
+    {"hardly smaller", [](Packing& p) { for (double& r : p.radius) r *= 1.0 - 1e-3; }},
+    {"larger", [](Packing& p) { for (double& r : p.radius) r *= 1.03; }},
+    {"smaller as a whole", [](Packing& p) { for (auto* values : {&p.x, &p.y, &p.radius}) for (double& v : *values) v *= 0.9; }},
+    {"no number", [](Packing& p) { p.x[5] = std::nan(""); }},
+    {"no number in y", [](Packing& p) { p.y[5] = std::nan(""); }},
+    {"no radius", [](Packing& p) { p.radius[5] = std::nan(""); }},
+    {"infinite", [](Packing& p) { p.radius[5] = HUGE_VAL; }},
+    {"all in one place", [](Packing& p) { std::ranges::fill(p.x, 1e-3), std::ranges::fill(p.y, 1e-3); }},
+    {"far", [](Packing& p) { p.x.back() = 1e18; }},
+    {"further", [](Packing& p) { p.y[3] = 1e300; }},
+    {"beyond the edge", [](Packing& p) { p.y[3] = -1e-6; }},
+    {"negative", [](Packing& p) { p.radius[3] = -1e-4; }},
+    {"huge", [](Packing& p) { p.radius[3] = 1.0; }},
+    {"two radii exchanged", [](Packing& p) { std::swap(p.radius[100], p.radius[101]); }},
+    {"one radius", [](Packing& p) { p.radius[7] *= 1.0001; }},
+    // The largest disc: a small one may touch no other.
+    {"shifted", [](Packing& p) { p.y[static_cast<std::size_t>(std::ranges::max_element(p.radius) - p.radius.begin())] += 1e-3 * mean_radius(p); }},
+    {"out of order", [](Packing& p) { std::ranges::reverse(p.x), std::ranges::reverse(p.y), std::ranges::reverse(p.radius); }},
+    {"upside down", [](Packing& p) { for (double& y : p.y) y = p.width - y; }},
+    {"moved along", [](Packing& p) { for (double& y : p.y) y = std::fmod(y + 0.5 * p.width, p.width); }},
+    {"a disc less", [](Packing& p) { p.x.pop_back(), p.y.pop_back(), p.radius.pop_back(); }},
+    {"a radius less", [](Packing& p) { p.radius.pop_back(); }},
+    {"longer", [](Packing& p) { p.length *= 1.01; }},
+    {"a wall", [](Packing& p) { p.period.y = 0.0; }},
+};
+
+TEST(RandomJammed, IsToldFromForgeries) {
+  std::vector<std::pair<RandomSpec, Packing>> packings;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    RandomSpec spec = kStrip;
+    spec.seed = static_cast<std::uint64_t>(seed);
+    packings.emplace_back(spec, strip(seed));
+  }
+  for (const FlatWalls walls : {FlatWalls{false, true}, FlatWalls{true, true}}) {
+    for (const double ratio : {1.0, 1.67, 5.0}) {
+      const RandomSpec spec{.length = 6e-3, .width = 5e-3, .discs = 350, .seed = 3, .radius_ratio = ratio, .walls = walls};
+      packings.emplace_back(spec, random_jammed(spec));
+    }
+  }
+  for (const auto& [spec, packing] : packings) {
+    EXPECT_TRUE(can_be_jammed_from(packing, spec)) << spec.seed << " " << spec.radius_ratio;
+    for (const Forgery& f : kForgeries) {
+      const std::string name = f.name;
+      // Equal discs can be neither exchanged nor told apart.
+      if (spec.radius_ratio == 1.0 && (name == "two radii exchanged" || name == "upside down")) continue;
+      if (spec.walls.y && name == "a wall") continue;  // it has one
+      Packing forged = packing;
+      f.forge(forged);
+      EXPECT_FALSE(can_be_jammed_from(forged, spec)) << name << ", ratio " << spec.radius_ratio;
+    }
+    RandomSpec other = spec;
+    ++other.seed;
+    if (spec.radius_ratio > 1.0) {
+      EXPECT_FALSE(can_be_jammed_from(packing, other));
+    }
+    other = spec;
+    other.walls.x = !other.walls.x;
+    EXPECT_FALSE(can_be_jammed_from(packing, other));
+  }
+}
+
 }  // namespace
 }  // namespace ddem::packings
