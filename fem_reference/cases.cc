@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -253,13 +254,8 @@ void read_mesh(Table& table, StripCase& strip) {
   for (int k = 0; k < 2; ++k) {
     strip.elements[k] = static_cast<unsigned>(table.count(&(*elements)[k], "elements", 1'000'000));
   }
-  const double p = strip.degree, unknowns = 2.0 * p * strip.elements[0] * p * strip.elements[1];
-  if (unknowns > most_degrees_of_freedom) {
-    table.complain("elements", *elements,
-                   fmt::format("of degree {} makes {:.2g} degrees of freedom; {:.2g} are the most",
-                               strip.degree, unknowns, most_degrees_of_freedom),
-                   0);
-  }
+  const std::string excess = excess_of(1.0 * strip.elements[0] * strip.elements[1], strip.degree);
+  if (!excess.empty()) table.complain("elements", *elements, excess, 0);
 }
 
 void read_material(Table& table, StripCase& strip) {
@@ -315,7 +311,7 @@ StripCase read_case(const Json& json, std::size_t index, std::set<std::string>& 
   if (const Json* receivers = table.required("receivers")) {
     strip.receivers = read_receivers(*receivers, strip, table.key("receivers"), problems);
   }
-  strip.sample_every = table.count(table.optional("sample_every"), "sample_every", 1'000'000'000);
+  strip.sample_every = table.count(table.optional("sample_every"), "sample_every", 1'000'000'000'000);
   if (const Json* snapshots = table.optional("snapshots")) strip.snapshots = table.count(snapshots, "snapshots", 10'000);
   if (strip.snapshots > 0 && strip.time.integrator == Integrator::exact) {
     table.problem("snapshots need the integrator \"verlet\": only receivers are exact in time");
@@ -326,12 +322,25 @@ StripCase read_case(const Json& json, std::size_t index, std::set<std::string>& 
 
 }  // namespace
 
+std::string excess_of(double elements, int degree) {
+  const double unknowns = 2.0 * degree * degree * elements;
+  if (unknowns <= most_degrees_of_freedom) return {};
+  return fmt::format("of degree {} makes {:.2g} degrees of freedom; {:.2g} are the most", degree, unknowns, most_degrees_of_freedom);
+}
+
 std::vector<StripCase> parse_cases(const std::string& text) {
   Json json;
   try {
-    json = Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw CaseError(fmt::format("not JSON: {}", error.what()));
+    // What reads and prints a value calls itself for each value inside.
+    json = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+      if (depth > 100) throw CaseError("not a case file: nested too deeply");
+      return true;
+    });
+  } catch (const Json::parse_error& error) {
+    const auto before = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    throw CaseError(fmt::format("line {}: no JSON", 1 + std::count(text.begin(), before, '\n')));
+  } catch (const Json::exception&) {
+    throw CaseError("holds a number that is too large");
   }
   Problems problems;
   Table table(json, "case file", problems);

@@ -91,6 +91,9 @@ struct StripCase {
   std::uint64_t snapshots = 0;     ///< of all nodes at equal intervals, the last at the end; with verlet alone
 };
 
+/// Empty, or that so many elements are more than one process can hold.
+std::string excess_of(double elements, int degree);
+
 /// Throws CaseError listing every problem: unknown and missing keys, wrong types, impossible values.
 std::vector<StripCase> parse_cases(const std::string& text);
 

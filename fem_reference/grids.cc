@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
+#include <sstream>
 
-#include "fem_reference/cases.h"
+#include "fem_reference/file_limit.h"
 #include "meshes/strip_mesh.h"
 #include "meshes/user_mesh.h"
 
@@ -32,25 +32,9 @@ void snap_vertices(Triangulation& grid) {
       grid);
 }
 
-struct Box {
-  std::array<double, 2> low, high;
-};
-
-Box box_of(const meshes::QuadMesh& mesh) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{{infinity, infinity}, {-infinity, -infinity}};
-  for (const auto& vertex : mesh.vertices) {
-    for (int c = 0; c < 2; ++c) {
-      box.low[c] = std::min(box.low[c], vertex[c]);
-      box.high[c] = std::max(box.high[c], vertex[c]);
-    }
-  }
-  return box;
-}
-
-Grid make_grid(const meshes::QuadMesh& mesh, const Box& box, double unit) {
+Grid make_grid(const meshes::QuadMesh& mesh, double unit) {
   std::vector<dealii::Point<2>> vertices;
-  for (const auto& v : mesh.vertices) vertices.emplace_back((v[0] - box.low[0]) / unit, (v[1] - box.low[1]) / unit);
+  for (const auto& v : mesh.vertices) vertices.emplace_back(v[0] / unit, v[1] / unit);
   std::vector<dealii::CellData<2>> cells(mesh.quads.size());
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const auto& q = mesh.quads[k];
@@ -63,9 +47,16 @@ Grid make_grid(const meshes::QuadMesh& mesh, const Box& box, double unit) {
     edges.boundary_lines.back().boundary_id = id;
   }
   dealii::GridTools::consistently_order_cells(cells);
-  Grid grid{std::make_unique<Triangulation>(), (box.high[0] - box.low[0]) / unit, (box.high[1] - box.low[1]) / unit};
+  Grid grid{std::make_unique<Triangulation>(), mesh.length / unit, mesh.width / unit};
   grid.triangulation->create_triangulation(vertices, cells, edges);
   return grid;
+}
+
+std::string each_line_after(const std::string& start, const std::string& lines) {
+  std::istringstream stream(lines);
+  std::string result;
+  for (std::string line; std::getline(stream, line);) result += (result.empty() ? "" : "\n") + start + line;
+  return result;
 }
 
 }  // namespace
@@ -80,6 +71,12 @@ Grid rectangle_grid(unsigned nx, unsigned ny) {
     std::ifstream stream(folder / "strip.msh");
     dealii::GridIn<2> reader(*triangulation);
     reader.read_msh(stream);
+  } catch (const dealii::ExceptionBase&) {  // of a file that is not whole; gmsh does not tell why
+    std::error_code missing;
+    const auto bytes = std::filesystem::file_size(folder / "strip.msh", missing);
+    std::filesystem::remove_all(folder);
+    const std::string why = !missing && bytes >= file_size_limit() ? ": " + file_error_text(EFBIG) : "";
+    throw std::runtime_error("cannot write a mesh to " + (folder / "strip.msh").string() + ", and read it back" + why);
   } catch (...) {
     std::filesystem::remove_all(folder);
     throw;
@@ -90,20 +87,17 @@ Grid rectangle_grid(unsigned nx, unsigned ny) {
   return {std::move(triangulation), double(nx), double(ny)};
 }
 
-Grid user_grid(const std::filesystem::path& file, double length, double width) {
+Grid user_grid(const StripCase& strip) {
+  const std::string file = strip.mesh.string();
   try {
-    const meshes::QuadMesh mesh = meshes::read_user_mesh(file);
-    const Box box = box_of(mesh);
-    const double own_length = box.high[0] - box.low[0], own_width = box.high[1] - box.low[1];
-    if (std::abs(own_length - length) > 1e-6 * length || std::abs(own_width - width) > 1e-6 * width) {
-      throw meshes::MeshError(fmt::format("is {:.9g} m long and {:.9g} m wide, the strip {:.9g} m and {:.9g} m", own_length,
-                                          own_width, length, width));
-    }
-    return make_grid(mesh, box, 0.01 * width);
-  } catch (const meshes::MeshError& error) {
-    throw CaseError(file.string() + ": " + error.what());
+    const meshes::QuadMesh mesh = meshes::read_user_mesh(strip.mesh, {strip.length, strip.width, strip.periodic});
+    const std::string excess = excess_of(static_cast<double>(mesh.quads.size()), strip.degree);
+    if (!excess.empty()) throw CaseError(fmt::format("{} elements {}", mesh.quads.size(), excess));
+    return make_grid(mesh, 0.01 * strip.width);
+  } catch (const std::invalid_argument& error) {  // MeshError, CaseError
+    throw CaseError(each_line_after(file + ": ", error.what()));
   } catch (const dealii::ExceptionBase& error) {
-    throw CaseError(file.string() + ": deal.II refuses this mesh: " + error.what());
+    throw CaseError(fmt::format("{}: deal.II refuses this mesh ({})", file, error.get_exc_name()));
   }
 }
 

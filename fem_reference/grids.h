@@ -4,8 +4,9 @@
 
 #include <deal.II/grid/tria.h>
 
-#include <filesystem>
 #include <memory>
+
+#include "fem_reference/cases.h"
 
 namespace ddem::fem {
 
@@ -19,7 +20,7 @@ struct Grid {
 /// [0, nx] x [0, ny]. Throws std::runtime_error if gmsh fails.
 Grid rectangle_grid(unsigned nx, unsigned ny);
 
-/// Throws CaseError for a file that is no such mesh, or one that is not `length` long and `width` wide to 1e-6.
-Grid user_grid(const std::filesystem::path& file, double length, double width);
+/// Of a case with a mesh. Throws CaseError with all that is wrong with its file (meshes/user_mesh.h).
+Grid user_grid(const StripCase& strip);
 
 }  // namespace ddem::fem

@@ -2,13 +2,17 @@
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -36,9 +40,24 @@ struct Arguments {
 // Of several processes, which all come to the same conclusions, the first one speaks and writes.
 bool is_first = true;
 
+// Whether anyone hears it or not.
+void say(const std::string& line) {
+  std::fputs((line + '\n').c_str(), stderr);
+}
+
 int complain(Exit code, const std::string& message) {
-  if (is_first) fmt::print(stderr, "ddem-fem: {}\n", message);
+  if (is_first) say("ddem-fem: " + message);
   return code;
+}
+
+// What is closed would be the number of the next file that is opened, which messages would then go into. Writing more than
+// a limit allows, or to nobody, is an error to be seen, not the end of the process.
+void prepare_streams() {
+  int descriptor = 0;
+  while (descriptor >= 0 && descriptor <= 2) descriptor = ::open("/dev/null", O_RDWR);
+  if (descriptor > 2) ::close(descriptor);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 // A failed solution is a status of its case; the other cases still run.
@@ -56,6 +75,7 @@ int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
   std::optional<SignalsFile> signals;
   if (is_first) signals.emplace(arguments.output, version);
   StripModeller modeller;
+  modeller.read_meshes(cases);
   ddem::Team team(arguments.threads);
   bool all_ok = true;
   for (const StripCase& strip : cases) {
@@ -65,7 +85,7 @@ int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
     all_ok = all_ok && result.ok();
     if (!is_first) continue;
     signals->write(strip, result);
-    if (arguments.progress) fmt::print(stderr, "done {}\n", strip.id);
+    if (arguments.progress) say("done " + strip.id);
   }
   if (is_first) signals->commit();
   return all_ok ? done : solver_failed;
@@ -86,7 +106,11 @@ int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arg
     return run(cases, arguments);
   } catch (const std::invalid_argument& error) {  // CaseError
     code = complain(wrong_input, error.what());
-  } catch (const std::exception& error) {  // disk, gmsh, memory
+  } catch (const dealii::ExceptionBase& error) {
+    code = complain(machine_failed, std::string("deal.II failed: ") + error.get_exc_name());
+  } catch (const std::bad_alloc&) {
+    code = complain(machine_failed, "not enough memory: take fewer elements, or a lower degree");
+  } catch (const std::exception& error) {  // disk, gmsh
     code = complain(machine_failed, error.what());
   }
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) {
@@ -100,6 +124,7 @@ int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arg
 }  // namespace
 
 int main(int argc, char** argv) {
+  prepare_streams();
   Arguments arguments;
   CLI::App app("Continuum reference of the strip: explicit plane elastodynamics on spectral elements.",
                "ddem-fem");
@@ -113,13 +138,19 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : wrong_input;
+    const bool asked = app.exit(error) == 0;
+    return !std::cout.flush() ? machine_failed : asked ? done : wrong_input;
   }
   std::vector<StripCase> cases;
   try {
     cases = read_cases(arguments.cases);
   } catch (const CaseError& error) {
     return complain(wrong_input, fmt::format("{}:\n{}", arguments.cases, error.what()));
+  }
+  try {
+    check_replaceable(arguments.output);
+  } catch (const CaseError& error) {
+    return complain(wrong_input, error.what());
   }
   return run_with_libraries(cases, arguments, argc, argv);
 }

@@ -5,12 +5,14 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "fem_reference/file_limit.h"
 
 namespace ddem::fem {
 namespace {
@@ -116,35 +118,75 @@ std::vector<char> image_of(hid_t file) {
   return image;
 }
 
+// Opened anew beside its target, and gone with the object unless it took the target's place.
+class FileBeside {
+ public:
+  explicit FileBeside(const std::filesystem::path& target)
+      : target_(target), path_(target.string() + ".part" + std::to_string(getpid())), stream_(path_, std::ios::binary | std::ios::trunc) {
+    if (!stream_) fail(errno);
+  }
+  ~FileBeside() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  FileBeside(const FileBeside&) = delete;
+  FileBeside& operator=(const FileBeside&) = delete;
+
+  // Where a full disk or a limit takes nothing at all.
+  void try_a_byte() {
+    if (!stream_.put('\0').flush()) fail(errno);
+  }
+
+  void replace_target(const std::vector<char>& content) {
+    if (!stream_.write(content.data(), static_cast<std::streamsize>(content.size())).flush()) fail(errno);
+    stream_.close();
+    if (!stream_) fail(errno);
+    std::error_code status;
+    const auto replaced = std::filesystem::status(target_, status);
+    if (std::filesystem::exists(replaced)) std::filesystem::permissions(path_, replaced.permissions(), status);
+    std::filesystem::rename(path_, target_, status);
+    if (status) fail(status.value());
+    path_.clear();
+  }
+
+ private:
+  [[noreturn]] void fail(int error) const {
+    throw FileError("cannot write " + target_.string() + ": " + file_error_text(error));
+  }
+
+  std::filesystem::path target_, path_;
+  std::ofstream stream_;
+};
+
 }  // namespace
 
 struct SignalsFile::Open {
   Handle file;
 };
 
-SignalsFile::SignalsFile(const std::filesystem::path& target, const std::string& program)
-    : target_(target), temporary_(target.string() + ".part" + std::to_string(getpid())) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
+void check_replaceable(const std::filesystem::path& target) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   std::error_code status;
-  if (std::filesystem::is_directory(target_, status)) throw FileError(target_.string() + " is a directory");
-  // To know now, not after hours of solving, whether the folder takes a file.
-  if (!std::ofstream(temporary_, std::ios::binary)) {
-    throw FileError("cannot write " + target_.string() + ": " + std::strerror(errno));
-  }
-  try {
-    open_.reset(new Open{{create_in_memory(), H5Fclose}});
-    write_integer(open_->file, "schema", 1);
-    write_text(open_->file, "program", program);
-  } catch (...) {
-    std::filesystem::remove(temporary_, status);
-    throw;
-  }
+  if (!std::filesystem::is_regular_file(target, status) || std::filesystem::file_size(target, status) == 0) return;
+  std::string begin(signature.size(), '\0');
+  std::ifstream(target, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin != signature) throw CaseError(target.string() + ": is there and is no HDF5 file; it is not overwritten, name another file");
 }
 
-SignalsFile::~SignalsFile() {
-  std::error_code ignored;
-  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+SignalsFile::SignalsFile(const std::filesystem::path& target, const std::string& program) : target_(target) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
+  std::error_code status;
+  if (std::filesystem::is_symlink(target_, status)) target_ = std::filesystem::weakly_canonical(target_, status);
+  if (std::filesystem::exists(target_, status) && !std::filesystem::is_regular_file(target_, status)) {
+    throw FileError(target_.string() + " is no file");
+  }
+  FileBeside(target_).try_a_byte();  // to know now, not after hours of solving, and gone while they pass
+  open_.reset(new Open{{create_in_memory(), H5Fclose}});
+  write_integer(open_->file, "schema", 1);
+  write_text(open_->file, "program", program);
 }
+
+SignalsFile::~SignalsFile() = default;
 
 void SignalsFile::write(const StripCase& strip, const CaseResult& result) {
   Handle group(H5Gcreate2(open_->file, strip.id.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -180,15 +222,7 @@ void SignalsFile::write(const StripCase& strip, const CaseResult& result) {
 }
 
 void SignalsFile::commit() {
-  const std::vector<char> image = image_of(open_->file);
-  std::ofstream stream(temporary_, std::ios::binary | std::ios::trunc);
-  stream.write(image.data(), static_cast<std::streamsize>(image.size()));
-  stream.close();
-  if (!stream) throw FileError("cannot write " + target_.string() + ": " + std::strerror(errno));
-  std::error_code status;
-  std::filesystem::rename(temporary_, target_, status);
-  if (status) throw FileError("cannot write " + target_.string() + ": " + status.message());
-  temporary_.clear();
+  FileBeside(target_).replace_target(image_of(open_->file));
 }
 
 }  // namespace ddem::fem

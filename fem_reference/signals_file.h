@@ -25,6 +25,9 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws CaseError for a file that holds something else than HDF5: an input, or what is not ours.
+void check_replaceable(const std::filesystem::path& target);
+
 /// Written beside its target under another name; appears there, whole, with commit(), or leaves nothing
 /// behind.
 class SignalsFile {
@@ -40,7 +43,7 @@ class SignalsFile {
 
  private:
   struct Open;
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_;
   std::unique_ptr<Open> open_;
 };
 

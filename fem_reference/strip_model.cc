@@ -8,12 +8,16 @@
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "fem_reference/distributed.h"
@@ -220,18 +224,34 @@ std::unique_ptr<dealii::Triangulation<2>> distribute(const dealii::Triangulation
 
 struct StripModeller::Meshes {
   std::map<std::pair<unsigned, unsigned>, Grid> rectangles;
-  std::map<std::filesystem::path, Grid> users;
+  std::map<std::tuple<std::filesystem::path, double, double, bool>, Grid> users;  ///< with what they were checked for
+
+  const Grid& of(const StripCase& strip) {
+    const auto [nx, ny] = strip.elements;
+    Grid& grid = strip.mesh.empty() ? rectangles[{nx, ny}] : users[{strip.mesh, strip.length, strip.width, strip.periodic}];
+    if (grid.triangulation == nullptr) grid = strip.mesh.empty() ? rectangle_grid(nx, ny) : user_grid(strip);
+    return grid;
+  }
 };
 
 StripModeller::StripModeller() : meshes_(std::make_unique<Meshes>()) {}
 StripModeller::~StripModeller() = default;
 
+void StripModeller::read_meshes(const std::vector<StripCase>& cases) {
+  std::set<std::string> problems;  // of a mesh that many cases share once
+  for (const StripCase& strip : cases) {
+    try {
+      if (!strip.mesh.empty()) meshes_->of(strip);
+    } catch (const CaseError& error) {
+      problems.insert(error.what());
+    }
+  }
+  if (!problems.empty()) throw CaseError(fmt::format("{}", fmt::join(problems, "\n")));
+}
+
 StripModel StripModeller::model(const StripCase& strip) {
   const auto [nx, ny] = strip.elements;
-  auto& grid = strip.mesh.empty() ? meshes_->rectangles[{nx, ny}] : meshes_->users[strip.mesh];
-  if (grid.triangulation == nullptr) {
-    grid = strip.mesh.empty() ? rectangle_grid(nx, ny) : user_grid(strip.mesh, strip.length, strip.width);
-  }
+  const Grid& grid = meshes_->of(strip);
   std::unique_ptr<dealii::Triangulation<2>> shared;
   if (several_processes()) {
     if (!strip.mesh.empty()) throw CaseError(strip.mesh.string() + ": a mesh from a file runs in one process");

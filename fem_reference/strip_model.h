@@ -34,6 +34,9 @@ class StripModeller {
   StripModeller();
   ~StripModeller();
 
+  /// Those of users, before anything is solved. Throws CaseError with all that is wrong with any of them.
+  void read_meshes(const std::vector<StripCase>& cases);
+
   /// Throws std::runtime_error if gmsh or deal.II fail.
   StripModel model(const StripCase& strip);
 

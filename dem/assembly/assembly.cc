@@ -95,23 +95,63 @@ Bonds cut_at_edges(const Packing& packing, const Bonds& bonds, bool cut_x, bool 
   return select(bonds, keep);
 }
 
+std::vector<int> network_discs(const Assembly& a) {
+  std::vector<int> discs;
+  auto rattler = a.rattlers.begin();
+  for (int d = 0; d < static_cast<int>(a.size()); ++d) {
+    if (rattler != a.rattlers.end() && *rattler == d) {
+      ++rattler;
+    } else {
+      discs.push_back(d);
+    }
+  }
+  return discs;
+}
+
+double moving_density(const Assembly& a) {
+  if (a.rattlers.empty()) return bulk_density(a);
+  double mass = 0.0;
+  for (const int d : network_discs(a)) mass += a.mass[d];
+  return mass / (a.area() * a.thickness);
+}
+
 double solid_fraction(const Assembly& a) {
   return std::accumulate(a.volume.begin(), a.volume.end(), 0.0) / (a.area() * a.thickness);
 }
 
 double bulk_density(const Assembly& a) { return a.density * solid_fraction(a); }
 
-std::vector<int> edge_discs(const Packing& packing, Edge edge, double band) {
+namespace {
+
+std::vector<int> outermost(const Packing& packing, const std::vector<int>& among, Edge edge, double band) {
   const bool horizontal = edge == Edge::left || edge == Edge::right;
   const double sign = edge == Edge::left || edge == Edge::bottom ? 1.0 : -1.0;
   const std::vector<double>& coordinate = horizontal ? packing.x : packing.y;
-  double outermost = sign * coordinate.front();
-  for (const double c : coordinate) outermost = std::min(outermost, sign * c);
+  double outermost = HUGE_VAL;
+  for (const int d : among) outermost = std::min(outermost, sign * coordinate[d]);
   std::vector<int> discs;
-  for (std::size_t d = 0; d < packing.size(); ++d) {
-    if (sign * coordinate[d] <= outermost + band) discs.push_back(static_cast<int>(d));
+  for (const int d : among) {
+    if (sign * coordinate[d] <= outermost + band) discs.push_back(d);
   }
   return discs;
 }
+
+}  // namespace
+
+std::vector<int> edge_discs(const Packing& packing, Edge edge, double band) {
+  std::vector<int> all(packing.size());
+  std::iota(all.begin(), all.end(), 0);
+  return outermost(packing, all, edge, band);
+}
+
+Ends network_ends(const Assembly& a) {
+  std::vector<double> x;
+  for (const int d : network_discs(a)) x.push_back(a.packing.x[d]);
+  if (x.empty()) x = a.packing.x;
+  const auto [left, right] = std::minmax_element(x.begin(), x.end());
+  return {*left, *right};
+}
+
+std::vector<int> edge_discs(const Assembly& a, Edge edge, double band) { return outermost(a.packing, network_discs(a), edge, band); }
 
 }  // namespace ddem

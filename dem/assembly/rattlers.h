@@ -3,9 +3,9 @@
 //
 // The rule: a disc with fewer than two bonds carries no load at rest, and neither does one that is left with
 // fewer than two once such discs are taken away (peeled until nothing changes). These rattlers leave the
-// mechanical network together with their bonds: they keep their place and their share of the bulk density
-// (their mass counts in the sample), but they do not move, unless a new contact pushes them. The rule counts
-// bonds and nothing else: a disc on two collinear bonds is floppy as well when k_t = 0, and is not found here.
+// mechanical network together with their bonds: they keep their place, but they do not move, unless a new
+// contact pushes them; what counts them and what does not is told at network_discs(). This rule counts bonds
+// and nothing else: a disc on two collinear bonds is floppy as well when k_t = 0, and is not found here.
 // A free chain peels away from its ends to nothing.
 
 #include <cstddef>

@@ -59,7 +59,8 @@ EnergyRecorder::EnergyRecorder(const Assembly& a, const SimulationInput& in, con
   if (in.contact.kinematics != Kinematics::linear || in.energy_samples == 0) return;
   audit_.emplace(a, in.contact, in.deformation, s.order());
   every_ = std::max<long>(1, in.steps / in.energy_samples);
-  if (in.drive) undriven_ = static_cast<long>(std::ceil(in.drive->duration / in.time_step)) + 1;
+  // A drive beyond the end of the run, by however much, has no step after it.
+  if (in.drive) undriven_ = static_cast<long>(std::ceil(std::min(in.drive->duration / in.time_step, static_cast<double>(last_)))) + 1;
 }
 
 void EnergyRecorder::after_step() {

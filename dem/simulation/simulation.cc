@@ -6,6 +6,7 @@
 #include <exception>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include "dem/core/team.h"
 #include "dem/simulation/recorders.h"
@@ -18,6 +19,14 @@ namespace {
 constexpr long kCheckEvery = 16;     // steps between looks at divergence
 constexpr std::size_t kLeastShare = 2000;  // discs a thread: a sweep of them takes longer than to meet at its end
 constexpr double kDivergence = 1e3;  // times the largest displacement that the load can have put in
+
+/// A degree of freedom that is held does not move, not even at first.
+void check_rest(const std::vector<std::uint8_t>& held, const std::vector<double>& velocity, const char* component) {
+  for (std::size_t d = 0; d < std::min(held.size(), velocity.size()); ++d) {
+    if (held[d] && velocity[d] != 0.0)
+      throw std::invalid_argument("disc " + std::to_string(d) + " is held, but starts with a velocity " + component);
+  }
+}
 
 double largest(const std::vector<double>& v) {
   double m = 0.0;
@@ -149,6 +158,9 @@ void check_input(const Assembly& a, const SimulationInput& in) {
   for (const auto* v : {&in.held.x, &in.held.y, &in.held.theta}) {
     if (!v->empty() && v->size() != a.size()) throw std::invalid_argument("a mask of held discs has not one value a disc");
   }
+  check_rest(in.held.x, in.initial.vx, "vx");
+  check_rest(in.held.y, in.initial.vy, "vy");
+  check_rest(in.held.theta, in.initial.omega, "omega");
   const auto check_discs = [&](const std::vector<int>& discs) {
     if (discs.empty()) throw std::invalid_argument("a receiver or a driven edge has no disc");
     for (const int d : discs) {

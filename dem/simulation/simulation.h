@@ -48,12 +48,12 @@ struct SimulationInput {
   /// Of the polynomial's implicit strains, strain_relaxations(), where the caller knows them: finding them takes as long
   /// as hundreds of steps. Else empty.
   std::vector<double> relaxations;
-  HeldDofs held;
+  HeldDofs held;  ///< stay where `initial` displaces them
   InitialState initial;
-  std::optional<EdgeDrive> drive;
+  std::optional<EdgeDrive> drive;  ///< overrules `initial`
   double time_step = 0.0;  ///< s
   long steps = 0;
-  int sample_every = 1;
+  long sample_every = 1;
   std::vector<Receiver> receivers;
   int energy_samples = 50;  ///< about so many over the run, and the last step; 0: none
   int snapshots = 0;        ///< so many over the run, equally spaced, the last at its end
@@ -122,7 +122,8 @@ struct SimulationResult {
   InitialState final_state;  ///< displacements at the last step, velocities half a step before
 };
 
-/// Throws std::invalid_argument on a non-positive time step, negative steps, wrong sizes or indices.
+/// Throws std::invalid_argument on a non-positive time step, negative steps, wrong sizes or indices, and velocities of what
+/// is held.
 void check_input(const Assembly& assembly, const SimulationInput& input);
 
 /// As many of `threads` as make a run of so many discs faster: between two sweeps they wait for each other.

@@ -70,6 +70,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   if (pulls_) bonds_.neighbour = AlignedVector<std::int32_t>();  // of {} its memory would stay
   bind();
   pull(0, 0, bonds_.slices);
+  if (rotation_ && nonlinear) turn_bonds();
   start_leapfrog();
   plan_sweeps(input);
   begin_step();
@@ -247,61 +248,6 @@ void Stepper::finish_strain_stage() {
   begin_stage(gradients_->next(stage_, data_));
 }
 
-std::optional<Breakdown> Stepper::breakdown() const {
-  if (undecided_) {
-    const auto disc = std::find(position_.begin(), position_.end(), assumed_.empty() ? 0 : assumed_.front().i);
-    return Breakdown{Breakdown::Cause::contacts_undecided, step_number_, static_cast<int>(disc - position_.begin())};
-  }
-  if (!gradients_ || !gradients_->breakdown()) return std::nullopt;
-  const StrainBreakdown& b = *gradients_->breakdown();
-  const auto disc = std::find(position_.begin(), position_.end(), b.place);
-  return Breakdown{b.cause == StrainBreakdown::Cause::indefinite ? Breakdown::Cause::strains_indefinite : Breakdown::Cause::strains_not_converged,
-                   step_number_, disc == position_.end() ? 0 : static_cast<int>(disc - position_.begin())};
-}
-
-void Stepper::load(const InitialState& s) {
-  const auto copy = [&](const std::vector<double>& from, AlignedVector<double>& to, int stride, int offset) {
-    if (to.empty()) return;
-    for (std::size_t d = 0; d < from.size(); ++d) to[static_cast<std::size_t>(stride * position_[d] + offset)] = from[d];
-  };
-  const auto times_radius = [this](std::vector<double> values) {
-    for (std::size_t d = 0; d < values.size(); ++d) values[d] *= radius(static_cast<int>(d));
-    return values;
-  };
-  copy(s.ux, motion_, kQuad, 0), copy(s.uy, motion_, kQuad, 1);
-  if (rotation_) copy(times_radius(s.theta), motion_, kQuad, 2);
-  copy(s.vx, vx_, 1, 0), copy(s.vy, vy_, 1, 0), copy(times_radius(s.omega), omega_, 1, 0);
-  if (drive_) impose(0.0, motion_);
-}
-
-/// The step kernel takes v_{n-1/2} to v_{n+1/2}. From v_0 it needs v_{-1/2} = v_0 - dt a_0 / 2; a_0 comes from one step
-/// of the kernel itself from rest, whose results are then forgotten.
-void Stepper::start_leapfrog() {
-  AlignedVector<double> vx(padded_, 0.0), vy(padded_, 0.0), omega(omega_.size(), 0.0);
-  if (implicit_) {
-    for (begin_step(); stage_ != Stage::motion;) {
-      due_(data_, 0, bonds_.slices);
-      finish_strain_stage();
-    }
-  } else if (watch_) {
-    look_for_contacts();
-  }
-  StepData d = data_;
-  d.vx = vx.data(), d.vy = vy.data(), d.omega = omega.data();
-  move_(d, 0, bonds_.slices);
-  if (watch_) push_from_rest(vx.data(), vy.data());
-  for (std::size_t p = 0; p < padded_; ++p) {
-    vx_[p] -= 0.5 * vx[p];
-    vy_[p] -= 0.5 * vy[p];
-    if (rotation_) omega_[p] -= 0.5 * omega[p];
-  }
-}
-
-void Stepper::impose(double time, AlignedVector<double>& motion) const {
-  const double value = drive_->displacement(time);
-  for (const int place : driven_places_) motion[driven_component(place)] = value;
-}
-
 bool Stepper::finish_stage() {
   if (stage_ == Stage::motion && (threads() > 1 || watch_)) {
     stage_ = Stage::seams;  // of the same shares
@@ -343,33 +289,6 @@ void Stepper::bind() {
   d.rigid_fx = rigid_fx_.data(), d.rigid_fy = rigid_fy_.data(), d.rigid_moment = rigid_moment_.data();
   d.previous_dx = previous_dx_.data(), d.previous_dy = previous_dy_.data();
   d.previous_rotation = previous_rotation_.data(), d.slip = slip_.data();
-}
-
-int Stepper::diverged_disc(double bound) const {
-  const MotionView u{motion_.data()};
-  for (std::size_t d = 0; d < discs_; ++d) {
-    const int p = position_[d];
-    if (!(std::abs(u.ux(p)) <= bound && std::abs(u.uy(p)) <= bound)) return static_cast<int>(d);
-  }
-  return -1;
-}
-
-std::vector<double> Stepper::in_order(const double* values, int stride) const {
-  std::vector<double> ordered(discs_, 0.0);
-  if (values == nullptr) return ordered;
-  for (std::size_t d = 0; d < discs_; ++d) ordered[d] = values[stride * position_[d]];
-  return ordered;
-}
-
-std::vector<double> Stepper::over_radius(const double* values, int stride) const {
-  std::vector<double> ordered = in_order(values, stride);
-  for (std::size_t d = 0; d < discs_; ++d) ordered[d] /= radius(static_cast<int>(d));
-  return ordered;
-}
-
-InitialState Stepper::state_of(const double* motion) const {
-  return {in_order(motion, kQuad), in_order(motion + 1, kQuad), over_radius(motion + 2, kQuad),
-          in_order(vx_.data()),    in_order(vy_.data()),        over_radius(omega_.data())};
 }
 
 }  // namespace ddem

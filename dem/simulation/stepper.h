@@ -70,7 +70,9 @@ class Stepper {
   void size_arrays(const SimulationInput& input);
   void set_parameters(const Assembly& assembly, const SimulationInput& input);
   void prepare_strains(const Assembly& assembly, const SimulationInput& input);
+  // The start, stepper_start.cc.
   void load(const InitialState& initial);
+  void turn_bonds();
   void start_leapfrog();
   void impose(double time, AlignedVector<double>& motion) const;
   void bind();

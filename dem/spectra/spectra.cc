@@ -1,10 +1,12 @@
 #include "dem/spectra/spectra.h"
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "dem/spectra/extreme_eigenvalues.h"
 #include "dem/spectra/scheme_stiffness.h"
+#include "dem/spectra/step_map.h"
 #include "dem/spectra/strain_polynomial.h"
 #include "dem/spectra/strain_spectrum.h"
 
@@ -12,6 +14,7 @@ namespace ddem {
 namespace {
 
 constexpr double kSoftnessAccuracy = 1e-3;
+constexpr std::size_t kMostUnknowns = 700;  // of a step whose eigenvalues are sought ten times: 10 s
 
 /// Root of the largest eigenvalue of M^-1 times that stiffness.
 double largest_frequency_of(const Operators& op, const SchemeStiffness& stiffness, const HeldDofs& held, const char* what) {
@@ -75,25 +78,44 @@ CriticalStep critical_step(const Assembly& a, const ContactParameters& contact, 
   return {StepBound::flip, flip_limit_step(a, contact, deformation, held)};
 }
 
-std::optional<double> stable_softness_factor(const Assembly& a, const ContactParameters& contact,
-                                             const DeformationParameters& deformation, const HeldDofs& held, double dt) {
-  if (deformation.scheme != Scheme::lagged) throw std::invalid_argument("only the lagged scheme limits the softness of the discs");
-  const double w = deformation.relaxation;
-  const double reach = deformation.evaluations % 2 == 0 ? (1.0 - w) / w : 2.0 / w - 1.0;
-  const double fixed_point = reach / fixed_point_radius(a, contact, deformation);
-  const auto stable = [&](double factor) {
-    DeformationParameters d = deformation;
-    d.young_modulus /= factor;
-    return dt <= flip_limit_step(a, contact, d, held);
-  };
-  double high = fixed_point * (1.0 - kSoftnessAccuracy), low = kSoftnessAccuracy * high;
-  if (!(fixed_point > 0.0) || !stable(low)) return std::nullopt;
-  if (stable(high)) return fixed_point;
+namespace {
+
+/// Between a factor that is stable and one that is not, as far as that is asked.
+double largest_stable(const std::function<bool(double)>& stable, double low, double high) {
   while (high - low > kSoftnessAccuracy * high) {
     const double middle = 0.5 * (low + high);
     (stable(middle) ? low : high) = middle;
   }
   return low;
+}
+
+DeformationParameters softened(DeformationParameters d, double factor) {
+  d.young_modulus /= factor;
+  return d;
+}
+
+}  // namespace
+
+std::optional<SoftnessFactor> stable_softness_factor(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
+                                                     const HeldDofs& held, double dt) {
+  if (deformation.scheme != Scheme::lagged) throw std::invalid_argument("only the lagged scheme limits the softness of the discs");
+  const double w = deformation.relaxation, radius = fixed_point_radius(a, contact, deformation);
+  const bool even = deformation.evaluations % 2 == 0;
+  const double converges = (2.0 / w - 1.0) / radius, damps = even ? (1.0 - w) / w / radius : converges;
+  const auto flips_not = [&](double factor) { return dt <= flip_limit_step(a, contact, softened(deformation, factor), held); };
+  const auto below = [](double limit) { return limit * (1.0 - kSoftnessAccuracy); };
+  if (!(damps > 0.0) || !flips_not(kSoftnessAccuracy * damps)) return std::nullopt;
+  if (!flips_not(below(damps))) {
+    const double flip = largest_stable(flips_not, kSoftnessAccuracy * damps, below(damps));
+    return SoftnessFactor{flip, flip};
+  }
+  if (!even) return SoftnessFactor{damps, damps};
+  const double flip = flips_not(below(converges)) ? converges : largest_stable(flips_not, below(damps), below(converges));
+  const bool energy = make_operators(a, contact, deformation).symmetric;
+  if (!energy || step_unknowns(a, contact, deformation) > kMostUnknowns) return SoftnessFactor{damps, flip};
+  const auto grows_not = [&](double factor) { return step_growth(a, contact, softened(deformation, factor), held, dt) <= kGrowthRoundOff; };
+  const double sharp = largest_stable(grows_not, below(damps), flip);
+  return SoftnessFactor{sharp, sharp};
 }
 
 }  // namespace ddem

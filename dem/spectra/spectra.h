@@ -40,7 +40,8 @@ enum class StepBound {
   oscillation,  ///< 2/omega_max of rigid discs or of implicit strains
   flip,         ///< flip_limit_step
   fixed_point,  ///< no step: the lagged strains do not converge
-  feeding       ///< no step: an even number of evaluations feeds waves whose strains overshoot
+  feeding       ///< none that is safe for sure: an even number of evaluations overshoots in some strains, and feeds the motions
+                ///< that consist of these (step_growth in step_map.h tells)
 };
 
 struct CriticalStep {
@@ -53,9 +54,16 @@ struct CriticalStep {
 CriticalStep critical_step(const Assembly& assembly, const ContactParameters& contact,
                            const DeformationParameters& deformation, const HeldDofs& held);
 
-/// The factor by which k_n/E_p may be multiplied before a step `dt` becomes unstable, right to 1e-3; lagged only. None
-/// where the step itself is beyond the critical one however stiff the discs, or the evaluations feed.
-std::optional<double> stable_softness_factor(const Assembly& assembly, const ContactParameters& contact,
-                                             const DeformationParameters& deformation, const HeldDofs& held, double dt);
+/// The factor by which k_n/E_p may be multiplied before a step becomes unstable lies between these.
+struct SoftnessFactor {
+  double at_least = 0.0, at_most = 0.0;
+};
+
+/// For a step `dt`; lagged only. Right to 1e-3, but where an even number of evaluations overshoots: which motions consist of
+/// the strains that do is known of small assemblies only, from the eigenvalues of the step (ten times step_growth in
+/// step_map.h); else the bounds lie apart. For N with shear stiffness as critical_step(): without what grows slowly. None where
+/// the step is beyond the critical one however stiff the discs, or every strain overshoots.
+std::optional<SoftnessFactor> stable_softness_factor(const Assembly& assembly, const ContactParameters& contact,
+                                                     const DeformationParameters& deformation, const HeldDofs& held, double dt);
 
 }  // namespace ddem

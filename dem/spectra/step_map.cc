@@ -2,10 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "dem/spectra/scheme_stiffness.h"
+#include "dem/spectra/strain_polynomial.h"
 
 namespace ddem {
 namespace {
@@ -46,11 +49,25 @@ class Leader {
   Eigen::Index column_ = -1;
 };
 
-StepMode converged_mode(const Operators& op, double dt) {
-  const Eigen::VectorXd s = mass_scaling(op, {});
-  const SchemeStiffness stiffness = SchemeStiffness::converged(op);
+/// M^-1/2 K M^-1/2.
+MatrixXd scaled_matrix(const SchemeStiffness& stiffness, const Eigen::VectorXd& s) {
   MatrixXd a(s.size(), s.size());
   for (Eigen::Index k = 0; k < s.size(); ++k) a.col(k) = s.cwiseProduct(stiffness.apply(s[k] * Eigen::VectorXd::Unit(s.size(), k)));
+  return a;
+}
+
+/// The larger root of z - 2 + 1/z = -(omega dt)^2.
+Complex leapfrog_factor(const Complex& squared_frequency, double dt) {
+  const Complex half = 1.0 - 0.5 * dt * dt * squared_frequency, root = std::sqrt(half * half - 1.0);
+  return std::abs(half + root) > std::abs(half - root) ? half + root : half - root;
+}
+
+/// Frequencies of rigid motions, squared, are round-off.
+double rigid_below(const Eigen::VectorXcd& squared) { return 1e-10 * squared.cwiseAbs().maxCoeff(); }
+
+StepMode converged_mode(const Operators& op, double dt) {
+  const Eigen::VectorXd s = mass_scaling(op, {});
+  const MatrixXd a = scaled_matrix(SchemeStiffness::converged(op), s);
   Eigen::VectorXcd squared;
   Eigen::MatrixXcd vectors;
   if (op.symmetric) {
@@ -63,11 +80,9 @@ StepMode converged_mode(const Operators& op, double dt) {
     squared = solver.eigenvalues(), vectors = solver.eigenvectors();
   }
   Leader leader;
-  const double rigid = 1e-10 * squared.cwiseAbs().maxCoeff();
+  const double rigid = rigid_below(squared);
   for (Eigen::Index k = 0; k < squared.size(); ++k) {
-    if (std::abs(squared[k]) < rigid) continue;
-    const Complex half = 1.0 - 0.5 * dt * dt * squared[k], root = std::sqrt(half * half - 1.0);
-    leader.look(std::abs(half + root) > std::abs(half - root) ? half + root : half - root, k);
+    if (std::abs(squared[k]) >= rigid) leader.look(leapfrog_factor(squared[k], dt), k);
   }
   return {leader.factor(), scaled_to_one(s.cast<Complex>().cwiseProduct(vectors.col(leader.column())))};
 }
@@ -130,7 +145,52 @@ StepMode lagged_mode(const Operators& op, const DeformationParameters& deformati
   return {leader.factor(), scaled_to_one(state.head(op.overlap.cols()))};
 }
 
+Eigen::VectorXcd eigenvalues_of(const MatrixXd& a) {
+  const Eigen::EigenSolver<MatrixXd> solver(a, false);
+  require_success(solver.info());
+  return solver.eigenvalues();
+}
+
+/// All factors of motions that are not held.
+Eigen::VectorXcd lagged_factors(const Operators& op, const DeformationParameters& d, const Eigen::VectorXd& scaling, double dt) {
+  const Eigen::Index n = scaling.size(), all = 2 * n + op.strain_overlap.cols();
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < all; ++k) {
+    if (k >= 2 * n || scaling[k % n] > 0.0) free.push_back(k);
+  }
+  return eigenvalues_of(lagged_map(op, d, dt)(free, free));
+}
+
+Eigen::VectorXcd converged_factors(const Operators& op, const SchemeStiffness& stiffness, const Eigen::VectorXd& scaling, double dt) {
+  const MatrixXd a = scaled_matrix(stiffness, scaling);
+  Eigen::VectorXcd z = op.symmetric ? Eigen::VectorXcd(Eigen::SelfAdjointEigenSolver<MatrixXd>(0.5 * (a + a.transpose()), Eigen::EigenvaluesOnly).eigenvalues().cast<Complex>())
+                                    : eigenvalues_of(a);
+  const double rigid = rigid_below(z);
+  for (Complex& factor : z) factor = std::abs(factor) < rigid ? 1.0 : leapfrog_factor(factor, dt);
+  return z;
+}
+
 }  // namespace
+
+double step_growth(const Assembly& a, const ContactParameters& contact, const DeformationParameters& d, const HeldDofs& held, double dt) {
+  const Operators op = make_operators(a, contact, d);
+  const Eigen::VectorXd scaling = mass_scaling(op, held);
+  const bool polynomial = d.scheme == Scheme::implicit && d.solver == StrainSolver::polynomial;
+  const Eigen::VectorXcd factors =
+      d.scheme == Scheme::lagged
+          ? lagged_factors(op, d, scaling, dt)
+          : converged_factors(op, polynomial ? SchemeStiffness::polynomial(op, strain_relaxations(a, contact, d)) : SchemeStiffness::converged(op), scaling, dt);
+  double largest = 0.0;
+  for (const Complex& z : factors) {
+    if (std::abs(z - 1.0) >= kTranslationFactor) largest = std::max(largest, std::abs(z));
+  }
+  return largest - 1.0;
+}
+
+std::size_t step_unknowns(const Assembly& a, const ContactParameters& contact, const DeformationParameters& d) {
+  const std::size_t dofs = contact.has_rotation() ? 3 : 2;
+  return a.size() * (d.scheme == Scheme::lagged ? 2 * dofs + 3 : dofs);
+}
 
 StepMode leading_mode(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, double time_step) {
   const Operators op = make_operators(assembly, contact, deformation);

@@ -13,6 +13,7 @@
 
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
+#include "dem/statics/held_dofs.h"
 
 namespace ddem {
 
@@ -30,5 +31,17 @@ inline constexpr double kTranslationFactor = 1e-5;
 /// that of the largest frequency. Takes O((9 discs)^3) with lagged strains and shear stiffness, 1 s for 50 discs.
 /// Throws std::runtime_error if the eigenvalues do not converge.
 StepMode leading_mode(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, double time_step);
+
+/// Largest |z| - 1 of all free motions but rigid ones, of the very step: what is held stays, and implicit strains are as the
+/// polynomial finds them. Above 0 the step is unstable. Right to kGrowthRoundOff; takes O(step_unknowns^3), 3 s for 1000.
+/// Throws std::runtime_error if the eigenvalues do not converge.
+double step_growth(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, const HeldDofs& held,
+                   double time_step);
+
+/// Eigenvalues on the unit circle are off it by round-off, more where several coincide, as a lattice's do.
+inline constexpr double kGrowthRoundOff = 1e-9;
+
+/// Of that matrix.
+std::size_t step_unknowns(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation);
 
 }  // namespace ddem

@@ -1,15 +1,40 @@
 #include "dem/statics/bond_system.h"
 
+#include <cmath>
+
+#include "dem/assembly/particle_volume.h"
+#include "dem/statics/strain_modes.h"
+
 namespace ddem {
 namespace {
 
-/// One row of a bond: the unknowns of both discs.
-void write_row(double* row, const BondSystem& s, const BondRows::Row& overlap, const BondRows::Row& strain) {
+/// One row of a bond: the unknowns of both discs. `unit` of the strains: s of each place, three.
+void write_row(double* row, const BondSystem& s, const std::array<int, 2>& place, const BondRows::Row& overlap,
+               const BondRows::Row& strain, const std::vector<double>& unit) {
   for (const int disc : {0, 1}) {
     double* const own = row + disc * s.unknowns_per_disc();
     for (int k = 0; k < s.displacements; ++k) own[k] = overlap[disc][k];
-    for (int k = 0; k < s.strains; ++k) own[s.displacements + k] = -strain[disc][k];
+    if (s.strains == 0) continue;
+    const std::array<double, 3> modes = in_strain_modes(strain[disc]);
+    for (int k = 0; k < 3; ++k) own[s.displacements + k] = -modes[k] * unit[3 * static_cast<std::size_t>(place[disc]) + k];
   }
+}
+
+/// D, and the strains' units.
+std::vector<double> set_strains(BondSystem& s, const Assembly& a, double length_scale, const DeformationParameters& deformation, double scale) {
+  std::vector<double> unit(3 * a.size());
+  s.strain_stiffness.resize(3 * a.size());
+  const std::array<double, 3> compliances = mode_compliances(deformation);
+  const std::vector<double> volume = particle_volumes(a, deformation);
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t at = 3 * static_cast<std::size_t>(s.place[p]) + k;
+      const double d = compliances[k] * length_scale * length_scale * scale / volume[p];
+      s.strain_stiffness[at] = 1.0 / (1.0 + d);
+      unit[at] = std::sqrt(d / (1.0 + d));
+    }
+  }
+  return unit;
 }
 
 void leave_out_held(double* row, const BondSystem& s, int first, int second) {
@@ -39,6 +64,8 @@ BondSystem bond_system(const Assembly& a, const Operators& op, const Deformation
   s.place = tree.place;
   s.stiffness = op.stiffness / scale;
   hold(s, held);
+  std::vector<double> unit;
+  if (op.deformable()) unit = set_strains(s, a, op.length_scale, deformation, scale);
   const std::size_t width = 2 * static_cast<std::size_t>(s.unknowns_per_disc()), rows = a.bonds.size() * s.rows_per_bond;
   s.right.resize(rows * width);
   if (!op.symmetric) s.left.resize(rows * width);
@@ -49,19 +76,13 @@ BondSystem bond_system(const Assembly& a, const Operators& op, const Deformation
     const BondRows b = bond_rows(a.bonds, c, op.length_scale, deformation);
     for (int r = 0; r < s.rows_per_bond; ++r) {
       double* const right = s.right.data() + (c * s.rows_per_bond + r) * width;
-      write_row(right, s, b.overlap[r], b.strain[r]);
+      write_row(right, s, {first, second}, b.overlap[r], b.strain[r], unit);
       leave_out_held(right, s, first, second);
       if (op.symmetric) continue;
       double* const left = s.left.data() + (c * s.rows_per_bond + r) * width;
-      write_row(left, s, b.overlap[r], b.stress[r]);
+      write_row(left, s, {first, second}, b.overlap[r], b.stress[r], unit);
       leave_out_held(left, s, first, second);
     }
-  }
-  if (!op.deformable()) return s;
-  s.strain_stiffness.assign(9 * a.size(), 0.0);
-  for (int k = 0; k < op.strain_stiffness.outerSize(); ++k) {
-    double* const column = s.strain_stiffness.data() + 9 * s.place[k / 3] + 3 * (k % 3);
-    for (SparseMatrix::InnerIterator it(op.strain_stiffness, k); it; ++it) column[it.row() % 3] = it.value() / scale;
   }
   return s;
 }
@@ -99,12 +120,14 @@ Eigen::VectorXd BondSystem::loads(const Eigen::VectorXd& forces) const {
   return y;
 }
 
-Eigen::VectorXd BondSystem::product(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd y = loads(stiffness.cwiseProduct(overlaps(x)));
-  const int n = unknowns_per_disc();
+Eigen::VectorXd BondSystem::balance(const Eigen::VectorXd& forces, const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y = loads(forces);
+  const std::size_t n = static_cast<std::size_t>(unknowns_per_disc());
   for (std::size_t p = 0; strains > 0 && p < place.size(); ++p) {
-    const Eigen::Index at = static_cast<Eigen::Index>(p) * n + displacements;
-    y.segment<3>(at) += Eigen::Map<const Eigen::Matrix3d>(strain_stiffness.data() + 9 * p) * x.segment<3>(at);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = static_cast<Eigen::Index>(n * p + k) + displacements;
+      y[at] += strain_stiffness[3 * p + k] * x[at];
+    }
   }
   for (Eigen::Index k = 0; k < y.size(); ++k) {
     if (held[k]) y[k] = x[k];

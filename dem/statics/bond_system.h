@@ -1,8 +1,10 @@
 #pragma once
-// The equations of static equilibrium as a sum over bonds, over the unknowns (q, eps) of the discs that it joins:
-//   A = sum_c l_c^T k_c r_c + V C,   r = [C, -G], l = [C, -S^T]
-// With V C on the diagonal of the strains, a disc's unknowns together, in the order of elimination. What is held has no
-// part in any row and a 1 on the diagonal.
+// The equations of static equilibrium as a sum over bonds, over the unknowns (q, z) of the discs that it joins:
+//   A = sum_c l_c^T k_c r_c + D,   r = [C, -G s], l = [C, -S^T s]
+// The strains are taken in their modes (strain_modes.h), eps = s z, each in such a unit that its stiffness is of order one
+// however soft or stiff the disc is: with d the compliance of a mode over V, as a number, s^2 = d/(1 + d), and D = s^2/d = 1/(1 + d) on
+// the diagonal of z. So all stays regular where a disc does not give, d = 0. A disc's unknowns stand together, in the order
+// of elimination. What is held has no part in any row and a 1 on the diagonal.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -16,13 +18,13 @@ namespace ddem {
 
 struct BondSystem {
   int displacements = 2;              ///< a disc's unknowns: those of q, and behind them
-  int strains = 0;                    ///< none, or 3
+  int strains = 0;                    ///< none, or 3: (a, d, s)
   int rows_per_bond = 1;
   std::vector<int> place;             ///< of each disc
   std::vector<int> first, second;     ///< places of a bond's discs
   std::vector<double> right, left;    ///< r and l: of each row the unknowns of the first disc and of the second; without l symmetric
   Eigen::VectorXd stiffness;          ///< of each row, over the scale
-  std::vector<double> strain_stiffness;  ///< V C of each place, 3 x 3, over the scale
+  std::vector<double> strain_stiffness;  ///< D: three of each place
   std::vector<std::uint8_t> held;     ///< of each unknown
 
   int unknowns_per_disc() const { return displacements + strains; }
@@ -35,8 +37,8 @@ struct BondSystem {
   Eigen::VectorXd overlaps(const Eigen::VectorXd& x) const;
   /// l^T f: [C^T f; -S f].
   Eigen::VectorXd loads(const Eigen::VectorXd& forces) const;
-  /// A x.
-  Eigen::VectorXd product(const Eigen::VectorXd& x) const;
+  /// l^T f + D x, and x where it is held.
+  Eigen::VectorXd balance(const Eigen::VectorXd& forces, const Eigen::VectorXd& x) const;
 };
 
 /// `scale`: of the stiffnesses, N/m.

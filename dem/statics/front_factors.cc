@@ -100,18 +100,18 @@ class FrontAssembly {
     }
   }
 
-  void add_to_diagonal_block(int at, int row, int col, double value) {
-    front_.lower[(at + col) * front_.stride + at + row] += value;
-    if (!front_.symmetric) front_.upper[(at + row) * front_.stride + at + col] += value;
+  void add_to_diagonal(int at, double value) {
+    front_.lower[at * front_.stride + at] += value;
+    if (!front_.symmetric) front_.upper[at * front_.stride + at] += value;
   }
 
   void add_diagonal(int place) {
     const int at = row_[place];
     for (int k = 0; k < s_.displacements; ++k) {
-      add_to_diagonal_block(at, k, k, s_.held[static_cast<std::size_t>(place) * n_ + k] ? 1.0 : regularisation_);
+      add_to_diagonal(at + k, s_.held[static_cast<std::size_t>(place) * n_ + k] ? 1.0 : regularisation_);
     }
-    for (int k = 0; k < 3 * s_.strains; ++k) {
-      add_to_diagonal_block(at + s_.displacements, k % 3, k / 3, s_.strain_stiffness[9 * static_cast<std::size_t>(place) + k]);
+    for (int k = 0; k < s_.strains; ++k) {
+      add_to_diagonal(at + s_.displacements + k, s_.strain_stiffness[3 * static_cast<std::size_t>(place) + k]);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace ddem {
@@ -51,16 +52,21 @@ Eigen::Vector3d mean_stress(const Assembly& a, const Operators& op, const Static
   return stress / (weight.length() * a.packing.width * a.thickness);
 }
 
-/// The strip cut into quarters: measured between the sections at 1/5 and 4/5 of its length, each the mean of the discs
-/// within three mean radii (a single column would carry the noise of single discs).
+/// Of the network: measured between the sections at 1/5 and 4/5 of its length, each the mean of the discs within three mean
+/// radii (a single column would carry the noise of single discs).
 class StripGauge {
  public:
-  explicit StripGauge(const Packing& p) : packing_(p) {
-    const auto [lo, hi] = std::minmax_element(p.x.begin(), p.x.end());
-    const double band = 3.0 * mean_radius(p);
-    left_ = discs_near(*lo + 0.2 * (*hi - *lo), band);
-    right_ = discs_near(*lo + 0.8 * (*hi - *lo), band);
-    section_ = {mean(left_, p.x), mean(right_, p.x)};
+  explicit StripGauge(const Assembly& a) : packing_(a.packing), discs_(network_discs(a)) {
+    double lo = HUGE_VAL, hi = -HUGE_VAL, radii = 0.0;
+    for (const int d : discs_) {
+      lo = std::min(lo, packing_.x[d]);
+      hi = std::max(hi, packing_.x[d]);
+      radii += packing_.radius[d];
+    }
+    const double band = 3.0 * radii / static_cast<double>(discs_.size());
+    left_ = discs_near(lo + 0.2 * (hi - lo), band);
+    right_ = discs_near(lo + 0.8 * (hi - lo), band);
+    section_ = {mean(left_, packing_.x), mean(right_, packing_.x)};
     if (left_.empty() || right_.empty() || !(section_.to - section_.from > 2.0 * band)) {
       throw std::invalid_argument("the strip is too short for a static measurement between inner sections; use at least 30 discs along x");
     }
@@ -77,11 +83,28 @@ class StripGauge {
     return (fluctuation(right_) - fluctuation(left_)) / (section_.to - section_.from);
   }
 
+  /// du_y/dy between the sections by least squares over the discs there; none where they stand in one row.
+  std::optional<double> lateral_strain(const StaticState& state, int dofs_per_disc) const {
+    double n = 0, sy = 0, su = 0, syy = 0, syu = 0;
+    const double origin = packing_.y[discs_.front()];
+    for (const int d : discs_) {
+      if (packing_.x[d] < section_.from || packing_.x[d] > section_.to) continue;
+      const double y = packing_.y[d] - origin, u = state.fluctuation[dofs_per_disc * d + 1];
+      n += 1, sy += y, su += u, syy += y * y, syu += y * u;
+    }
+    const double spread = std::sqrt(std::max(0.0, n * syy - sy * sy)) / n;
+    if (!(spread > kOneRow * packing_.radius[discs_.front()])) return std::nullopt;
+    return (n * syu - sy * su) / (n * syy - sy * sy);
+  }
+
  private:
+  /// Heights that differ by less, in radii, are those of one row with rounded coordinates.
+  static constexpr double kOneRow = 1e-6;
+
   std::vector<int> discs_near(double x, double band) const {
     std::vector<int> discs;
-    for (std::size_t d = 0; d < packing_.size(); ++d) {
-      if (std::abs(packing_.x[d] - x) <= band) discs.push_back(static_cast<int>(d));
+    for (const int d : discs_) {
+      if (std::abs(packing_.x[d] - x) <= band) discs.push_back(d);
     }
     return discs;
   }
@@ -92,13 +115,13 @@ class StripGauge {
   }
 
   const Packing& packing_;
-  std::vector<int> left_, right_;
+  std::vector<int> discs_, left_, right_;
   Section section_{};
 };
 
 /// Told before anything is factorised: grips that meet leave nothing to be solved.
 const Assembly& with_inner_sections(const Assembly& a) {
-  const StripGauge gauge(a.packing);
+  const StripGauge gauge(a);
   return a;
 }
 
@@ -113,23 +136,12 @@ HeldDofs gripped_ends(const Assembly& a, double edge_band) {
     held.theta.assign(p.size(), 0);
   }
   for (const Edge e : {Edge::left, Edge::right}) {
-    for (const int d : edge_discs(p, e, edge_band)) {
+    for (const int d : edge_discs(a, e, edge_band)) {
       held.x[d] = 1;
       if (hold_y_and_theta) held.y[d] = held.theta[d] = 1;
     }
   }
   return held;
-}
-
-/// -eps_yy between the sections: slope of u_y over y by least squares over the discs there.
-double lateral_strain(const Packing& p, const StaticState& state, int dofs_per_disc, const Section& s) {
-  double n = 0, sy = 0, su = 0, syy = 0, syu = 0;
-  for (std::size_t d = 0; d < p.size(); ++d) {
-    if (p.x[d] < s.from || p.x[d] > s.to) continue;
-    const double y = p.y[d], u = state.fluctuation[dofs_per_disc * d + 1];
-    n += 1, sy += y, su += u, syy += y * y, syu += y * u;
-  }
-  return (n * syu - sy * su) / (n * syy - sy * sy);
 }
 
 /// Mean strain of the fluctuation and mean stress: both linear in the state.
@@ -202,9 +214,9 @@ StiffnessRates homogenise_with_rates(const Assembly& a, const ContactParameters&
   const bool cell = a.packing.period.x > 0.0 && a.packing.period.y > 0.0;
   const StaticSolver solver(a, contact, deformation, cell ? HeldDofs{} : gripped_ends(a, edge_band));
   std::vector<OperatorRates> rates;
-  for (const Parameter p : parameters) rates.push_back(operator_rates(a, solver.operators(), contact, deformation, p));
+  for (const Parameter p : parameters) rates.push_back(operator_rates(solver.operators(), contact, deformation, p));
   if (cell) return homogenise(a, solver, nullptr, rates);
-  const StripGauge gauge(a.packing);
+  const StripGauge gauge(a);
   return homogenise(a, solver, &gauge, rates);
 }
 
@@ -224,26 +236,30 @@ GrippedStrip::GrippedStrip(const Assembly& a, const ContactParameters& contact,
 
 PlaneStiffness GrippedStrip::stiffness() const {
   if (!(assembly_.packing.period.y > 0.0)) throw std::invalid_argument("homogenisation of a strip needs a period in y");
-  const StripGauge gauge(assembly_.packing);
+  const StripGauge gauge(assembly_);
   return homogenise(assembly_, solver_, &gauge, {}).stiffness;
 }
 
 StripTension GrippedStrip::tension() const {
   if (assembly_.packing.period.y > 0.0) throw std::invalid_argument("the tension of a strip needs free edges");
-  const StripGauge gauge(assembly_.packing);
+  const StripGauge gauge(assembly_);
   const int dofs = solver_.operators().dofs_per_disc;
   const StaticState state = solver_.solve({1, 0, 0});
   const double strain = 1.0 + gauge.slope(state, dofs, 0), area = assembly_.packing.width * assembly_.thickness;
   const double force = mean_stress(assembly_, solver_.operators(), state, gauge.section())[0] * area;
-  return {force / strain, bulk_density(assembly_) * area,
-          -lateral_strain(assembly_.packing, state, dofs, gauge.section()) / strain};
+  StripTension tension{force / strain, moving_density(assembly_) * area, std::nullopt};
+  // What refinement leaves of a mechanism's forces; soft discs leave the millionth part of a bond's.
+  const double nothing = 1e-12 * solver_.operators().stiffness.maxCoeff() * solver_.operators().length_scale;
+  if (!(tension.axial_stiffness > nothing)) throw std::runtime_error("the strip resists no tension: it has a mechanism; take more rows or bonds, or a period in y");
+  if (const auto lateral = gauge.lateral_strain(state, dofs)) tension.lateral_contraction = -*lateral / strain;
+  return tension;
 }
 
 StaticSections GrippedStrip::sections(const std::vector<SectionDiscs>& sections) const {
   const int dofs = solver_.operators().dofs_per_disc;
   std::vector<StaticState> loads;
   for (int component = 0; component < (assembly_.packing.period.y > 0.0 ? 2 : 1); ++component) {
-    loads.push_back(solver_.solve_moved(right_end_moved(assembly_.packing, edge_band_, component, dofs)));
+    loads.push_back(solver_.solve_moved(right_end_moved(assembly_, edge_band_, component, dofs)));
   }
   return sections_under(assembly_, solver_.operators(), loads, sections);
 }
@@ -258,10 +274,10 @@ StripTension pull_strip(const Assembly& a, const ContactParameters& contact,
   return GrippedStrip(a, contact, deformation, edge_band).tension();
 }
 
-DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double bulk_density) {
+DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double moving_density) {
   const PlaneStiffness compliance = c.inverse();
-  return {std::sqrt(c(0, 0) / bulk_density), std::sqrt(c(2, 2) / bulk_density),
-          std::sqrt(1.0 / (compliance(0, 0) * bulk_density))};
+  return {std::sqrt(c(0, 0) / moving_density), std::sqrt(c(2, 2) / moving_density),
+          std::sqrt(1.0 / (compliance(0, 0) * moving_density))};
 }
 
 }  // namespace ddem

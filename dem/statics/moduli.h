@@ -3,6 +3,7 @@
 // Moduli are plane moduli divided by the thickness (Pa for unit thickness).
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,8 +48,8 @@ StiffnessRates homogenise_with_rates(const Assembly& assembly, const ContactPara
 /// The free strip pulled at its ends, measured between two inner sections.
 struct StripTension {
   double axial_stiffness = 0.0;      ///< EA: force over strain, N
-  double mass_per_length = 0.0;      ///< kg/m
-  double lateral_contraction = 0.0;  ///< -eps_yy / eps_xx
+  double mass_per_length = 0.0;      ///< of the discs that move, kg/m
+  std::optional<double> lateral_contraction;  ///< -eps_yy / eps_xx; none where the discs stand in one row
   double bar_velocity() const;       ///< sqrt(EA / mass per length): no area enters
 };
 
@@ -87,6 +88,6 @@ StripTension pull_strip(const Assembly& assembly, const ContactParameters& conta
 struct DirectionalSpeeds {
   double p = 0.0, s = 0.0, bar = 0.0;
 };
-DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double bulk_density);
+DirectionalSpeeds directional_speeds(const PlaneStiffness& c, double moving_density);
 
 }  // namespace ddem

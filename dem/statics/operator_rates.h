@@ -12,12 +12,9 @@ enum class Parameter {
   particle_poisson_ratio  ///< nu_p
 };
 
-/// Derivatives of K and V_p C_p (see operators.h). With plane constants e, n of the disc the rows of C_p are
-///   e/(1-n^2) (1, n, 0),  e/(1-n^2) (n, 1, 0),  (0, 0, 2 e/(1+n)),
-/// in plane strain e = E_p/(1-nu_p^2), n = nu_p/(1-nu_p). Throws std::invalid_argument where the assembly has
-/// no such parameter: lambda = 0, or no deformable discs.
-OperatorRates operator_rates(const Assembly& assembly, const Operators& operators,
-                             const ContactParameters& contact, const DeformationParameters& deformation,
+/// Of the bonds' stiffness and the discs' compliance. Throws std::invalid_argument where the assembly has no such parameter:
+/// lambda = 0, or no deformable discs.
+OperatorRates operator_rates(const Operators& operators, const ContactParameters& contact, const DeformationParameters& deformation,
                              Parameter parameter);
 
 }  // namespace ddem

@@ -10,6 +10,15 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+/// Mean radius of the network: what a scale decides, where there is no stiffness, is the same without its rattlers.
+double length_scale_of(const Assembly& a) {
+  const std::vector<int> discs = network_discs(a);
+  if (discs.empty()) return mean_radius(a.packing);
+  double sum = 0.0;
+  for (const int d : discs) sum += a.packing.radius[d];
+  return sum / static_cast<double>(discs.size());
+}
+
 SparseMatrix sparse(Eigen::Index rows, Eigen::Index cols, const Triplets& t) {
   SparseMatrix m(rows, cols);
   m.setFromTriplets(t.begin(), t.end());
@@ -91,7 +100,7 @@ Operators make_operators(const Assembly& a, const ContactParameters& contact,
   Operators op;
   op.dofs_per_disc = contact.has_rotation() ? 3 : 2;
   op.rows_per_bond = contact.has_rotation() ? 2 : 1;
-  op.length_scale = mean_radius(a.packing);
+  op.length_scale = length_scale_of(a);
   const int bonds = static_cast<int>(a.bonds.size());
   Triplets t;
   for (int c = 0; c < bonds; ++c) {

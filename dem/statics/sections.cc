@@ -11,20 +11,20 @@ namespace {
 
 /// The ends moved against each other along x (component 0) or y (1): the left band stays, the right one moves by 1. As in
 /// a driven strip with a right end fixed in x, nothing else is held, so that no other force passes through.
-HeldDofs held_under(const Packing& p, double edge_band, int component) {
+HeldDofs held_under(const Assembly& a, double edge_band, int component) {
   HeldDofs held;
   std::vector<std::uint8_t>& moved = component == 0 ? held.x : held.y;
-  moved.assign(p.size(), 0);
-  for (const int d : edge_discs(p, Edge::left, edge_band)) moved[d] = 1;
-  if (component == 1) held.x.assign(p.size(), 0);
-  for (const int d : edge_discs(p, Edge::right, edge_band)) moved[d] = held.x[d] = 1;
+  moved.assign(a.size(), 0);
+  for (const int d : edge_discs(a, Edge::left, edge_band)) moved[d] = 1;
+  if (component == 1) held.x.assign(a.size(), 0);
+  for (const int d : edge_discs(a, Edge::right, edge_band)) moved[d] = held.x[d] = 1;
   return held;
 }
 
 StaticState pulled(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,
                    double edge_band, int component) {
-  const StaticSolver solver(a, contact, deformation, held_under(a.packing, edge_band, component));
-  return solver.solve_moved(right_end_moved(a.packing, edge_band, component, solver.operators().dofs_per_disc));
+  const StaticSolver solver(a, contact, deformation, held_under(a, edge_band, component));
+  return solver.solve_moved(right_end_moved(a, edge_band, component, solver.operators().dofs_per_disc));
 }
 
 /// Force that the part right of the plane x = cut exerts on the part left of it.
@@ -46,10 +46,7 @@ double share_left(double distance) {
 
 double moving_mass_before(const Assembly& a, double x) {
   double sum = 0.0;
-  for (std::size_t d = 0; d < a.size(); ++d) {
-    if (std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) continue;
-    sum += a.mass[d] * share_left((x - a.packing.x[d]) / a.packing.radius[d]);
-  }
+  for (const int d : network_discs(a)) sum += a.mass[d] * share_left((x - a.packing.x[d]) / a.packing.radius[d]);
   return sum;
 }
 
@@ -95,9 +92,9 @@ StaticSections::Speeds StaticSections::between(int from, int to) const {
   return {speed(mean - root), speed(mean + root), 0.0};
 }
 
-Eigen::VectorXd right_end_moved(const Packing& p, double edge_band, int component, int dofs_per_disc) {
-  Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs_per_disc * static_cast<Eigen::Index>(p.size()));
-  for (const int d : edge_discs(p, Edge::right, edge_band)) q[static_cast<Eigen::Index>(dofs_per_disc) * d + component] = 1.0;
+Eigen::VectorXd right_end_moved(const Assembly& a, double edge_band, int component, int dofs_per_disc) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs_per_disc * static_cast<Eigen::Index>(a.size()));
+  for (const int d : edge_discs(a, Edge::right, edge_band)) q[static_cast<Eigen::Index>(dofs_per_disc) * d + component] = 1.0;
   return q;
 }
 

@@ -31,7 +31,7 @@ struct StaticSections {
   bool periodic = false;                       ///< in y: P and S; otherwise the bar alone
   std::vector<double> x;                       ///< mean place of each section's discs, m
   std::vector<Eigen::Matrix2d> displacement;   ///< columns: unit F_x, unit F_y (zero where not periodic); rows u_x, u_y
-  std::vector<double> mass_before;             ///< of the discs that move, left of the section's x, kg; rattlers stay where they are
+  std::vector<double> mass_before;             ///< of the discs that move, left of the section's x, kg
 
   /// Speeds of long waves between two sections, m/s; p and s of a periodic strip, bar of a free one, the others 0.
   struct Speeds {
@@ -62,6 +62,6 @@ StaticSections sections_under(const Assembly& assembly, const Operators& operato
                               const std::vector<SectionDiscs>& sections);
 
 /// q as in Operators: the discs of the right end's band moved by 1 along x (component 0) or y (1), the others 0.
-Eigen::VectorXd right_end_moved(const Packing& packing, double edge_band, int component, int dofs_per_disc);
+Eigen::VectorXd right_end_moved(const Assembly& assembly, double edge_band, int component, int dofs_per_disc);
 
 }  // namespace ddem

@@ -1,6 +1,7 @@
 #pragma once
 // Static equilibrium of an assembly under a macroscopic strain, with converged particle strains.
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,15 +14,14 @@ namespace ddem {
 /// Equilibrium: displacement E . x + fluctuation (without a macroscopic strain the displacement itself), and the forces of
 /// the bonds.
 struct StaticState {
-  Eigen::VectorXd fluctuation;   ///< q as in Operators
-  Eigen::VectorXd strain;        ///< particle strains as in Operators (times the length scale)
-  Eigen::VectorXd bond_forces;   ///< rows as in Operators::overlap, N
+  Eigen::VectorXd fluctuation;  ///< q as in Operators
+  Eigen::VectorXd bond_forces;  ///< rows as in Operators::overlap, N
 };
 
 /// How the operators change with a parameter p: C, G and S do not.
 struct OperatorRates {
-  Eigen::VectorXd stiffness;      ///< diagonal of dK/dp, N/m a unit of p
-  SparseMatrix strain_stiffness;  ///< d(V_p C_p)/dp; empty without deformation
+  Eigen::VectorXd stiffness;           ///< diagonal of dK/dp, N/m a unit of p
+  std::array<double, 3> compliance{};  ///< d ln/dp of the compliance of a disc in each mode (strain_modes.h)
 };
 
 /// Force (x, y) of bond c on its disc i, N.
@@ -30,9 +30,10 @@ Eigen::Vector2d bond_force(const Bonds& bonds, const Operators& operators, const
 /// Factorises once, solves for any number of strains. The system in (q, eps) is
 ///   [ C^T K C    -C^T K G      ] [q  ]     [ C^T K e_E ]
 ///   [ -S K C     V C + S K G   ] [eps] = - [ -S K e_E  ],   e_E = affine overlaps;
-/// symmetric positive definite for F and NN, and factorised front by front (front_factors.h).
+/// symmetric positive definite for F and NN; scaled (bond_system.h) and factorised front by front (front_factors.h).
 /// Modes without stiffness (rigid motion, floppy discs) get a regularisation of 1e-11 of the stiffest entry, the
-/// same for every scaled unknown, whose influence iterative refinement takes out again.
+/// same for every scaled unknown, whose influence refinement takes out again. Forces are refined beside the unknowns and
+/// not made from them in the end: of soft discs they are what is left of large overlaps, which loses their digits.
 class StaticSolver {
  public:
   /// Throws std::runtime_error if the factorisation fails.
@@ -41,7 +42,7 @@ class StaticSolver {
   ~StaticSolver();
   StaticSolver(StaticSolver&&) noexcept;
 
-  /// Throws std::runtime_error if the residual does not fall below 1e-12 of the load.
+  /// Throws std::runtime_error if the forces out of balance do not fall below 1e-12 of the forces.
   StaticState solve(const MacroStrain& strain) const;
   /// Of several at once, the same bits in less time.
   std::vector<StaticState> solve(std::span<const MacroStrain> strains) const;
@@ -49,7 +50,7 @@ class StaticSolver {
   StaticState solve_moved(const Eigen::VectorXd& displacement) const;
   /// d(state)/dp of an equilibrium that solve() returned, macroscopic strain and held degrees of freedom as they are:
   ///   M [dq; deps] = [ -C^T dK w; S dK w - d(V C) eps ],  dF = dK w + K (C dq - G deps),  w = K^-1 F,
-  /// by the same factorisation. Throws as solve().
+  /// by the same factorisation; V C eps = S F, so that d(V C) eps is S F times minus d ln of the compliance. Throws as solve().
   StaticState rate(const StaticState& state, const OperatorRates& rates) const;
   const Operators& operators() const;
 

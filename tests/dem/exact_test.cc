@@ -190,7 +190,7 @@ TEST_P(Exact, VerletConvergesToIt) {
   double error[2] = {0.0, 0.0};
   for (const int refinement : {0, 1}) {
     fine.sample_every = refinement == 0 ? 20 : 40;
-    fine.time_step = critical_ / fine.sample_every;
+    fine.time_step = critical_ / static_cast<double>(fine.sample_every);
     fine.steps = 49L * fine.sample_every;
     const Signals verlet = simulate(a_, fine).signals;
     for (std::size_t k = 0; k < exact.uy.size(); ++k) {

@@ -74,18 +74,26 @@ struct Problem {
     return rows;
   }
 
-  /// [C^T; -S] K [C, -G] + V C over k_n, from the operators.
+  /// [C^T; -S] K [C, -G] + V C over k_n, from the operators; strains as T times the unknowns: area, two shears, and each so
+  /// large that its V C and k_n add up to k_n.
   Eigen::MatrixXd dense() const {
     const Eigen::Index q = op.overlap.cols(), eps = op.stress.rows();
-    Eigen::MatrixXd right(op.overlap.rows(), q + eps), left(q + eps, op.overlap.rows());
+    Eigen::MatrixXd right(op.overlap.rows(), q + eps), left(q + eps, op.overlap.rows()), strain_stiffness;
     right.leftCols(q) = op.overlap;
     left.topRows(q) = right.leftCols(q).transpose();
     if (op.deformable()) {
-      right.rightCols(eps) = -Eigen::MatrixXd(op.strain_overlap);
-      left.bottomRows(eps) = -Eigen::MatrixXd(op.stress);
+      Eigen::MatrixXd t = Eigen::MatrixXd::Zero(eps, eps);
+      for (Eigen::Index d = 0; d < eps; d += 3) t.block<3, 3>(d, d) << 1.0, 1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 1.0;
+      t /= std::sqrt(2.0);
+      strain_stiffness = t.transpose() * op.strain_stiffness * t;
+      const Eigen::VectorXd unit = (strain_stiffness.diagonal().array() / kStiffness + 1.0).rsqrt();
+      t = t * unit.asDiagonal();
+      strain_stiffness = unit.asDiagonal() * strain_stiffness * unit.asDiagonal();
+      right.rightCols(eps) = -(op.strain_overlap * t);
+      left.bottomRows(eps) = -(t.transpose() * op.stress);
     }
     Eigen::MatrixXd a = left * op.stiffness.asDiagonal() * right;
-    if (op.deformable()) a.bottomRightCorner(eps, eps) += Eigen::MatrixXd(op.strain_stiffness);
+    if (op.deformable()) a.bottomRightCorner(eps, eps) += strain_stiffness;
     std::vector<int> to = rows_of_displacements();
     for (const int r : rows_of_strains()) to.push_back(r);
     Eigen::MatrixXd ordered = Eigen::MatrixXd::Zero(system.size(), system.size());
@@ -113,7 +121,8 @@ TEST(BondSystem, IsTheOperators) {
   for (const Law& law : kLaws) {
     const Problem p(random_piece(), law);
     const Eigen::MatrixXd dense = p.dense(), x = random_columns(p.system.size(), 1);
-    EXPECT_LT((p.system.product(x) - dense * x).cwiseAbs().maxCoeff(), kOfSums * dense.cwiseAbs().maxCoeff());
+    const Eigen::VectorXd product = p.system.balance(p.system.stiffness.cwiseProduct(p.system.overlaps(x)), x);
+    EXPECT_LT((product - dense * x).cwiseAbs().maxCoeff(), kOfSums * dense.cwiseAbs().maxCoeff());
   }
 }
 

@@ -156,10 +156,10 @@ double energy_loss(double step_fraction) {
   const Assembly a = lattice();
   SimulationInput in = shear_wave(a, 0.0, strains(Scheme::lagged), step_fraction);
   const double omega = bloch_of(in).frequencies({kWaveNumber, 0.0})[0].real();
-  in.sample_every = static_cast<int>(std::lround(1.6 / step_fraction));
+  in.sample_every = std::lround(1.6 / step_fraction);
   in.steps = std::lround(8.0 * std::numbers::pi / (omega * in.time_step));
   const auto z = multipliers_of(simulate(a, in).signals.uy[0], 2, static_cast<std::size_t>(80 / in.sample_every));
-  const double samples_in_two_periods = 4.0 * std::numbers::pi / (omega * in.time_step * in.sample_every);
+  const double samples_in_two_periods = 4.0 * std::numbers::pi / (omega * in.time_step * static_cast<double>(in.sample_every));
   return 1.0 - std::pow(std::abs(z[0]), 2.0 * samples_in_two_periods);
 }
 

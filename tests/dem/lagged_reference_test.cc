@@ -72,8 +72,14 @@ class Reference {
     return driven || (!mask.empty() && mask[p]);
   }
 
-  /// Velocities by the forces at hand, over a share of the step; then the strains that these forces make.
+  /// All evaluations; the last one's forces change the velocities, over a share of the step.
   void step(double share) {
+    for (int m = 1; m < in_.deformation.evaluations; ++m) evaluate(0.0);
+    evaluate(share);
+  }
+
+  /// Velocities by the forces at hand, over a share of the step; then the strains that these forces make.
+  void evaluate(double share) {
     std::vector<double> fx(a_.size()), fy(a_.size());
     std::vector<Strain> stress(a_.size());
     for (const Bond& b : bonds_) {
@@ -157,10 +163,11 @@ TEST(LaggedReference, OfEveryKindOfBond) {
       test::random_free_strip(), test::random_cell(2)};
   for (const Assembly& a : assemblies) {
     for (const double modulus : {0.0, 1e14}) {
-      for (const double relaxation : {1.0, 0.6}) {
+      for (const auto& [relaxation, evaluations] : {std::pair(1.0, 1), std::pair(0.6, 1), std::pair(1.0, 3), std::pair(0.6, 2)}) {
         SimulationInput in = input_of(a, 40);
         in.contact.contact_modulus = modulus;
         in.deformation.relaxation = relaxation;
+        in.deformation.evaluations = evaluations;
         in.time_step = 0.3 * 2.0 / largest_frequency(a, in.contact, {});
         Reference reference(a, in);
         reference.run();
@@ -200,17 +207,23 @@ TEST(LaggedReference, OfANewContact) {
   constexpr double r = 1e-4, gap = 1e-8;
   const Assembly a = test::three_discs(r, gap);
   SimulationInput in = input_of(a, 100);
-  in.initial.ux = {2e-8, -2e-8, 0.0}, in.initial.uy = {0.0, 0.0, 0.0};
+  in.initial.uy = {0.0, 0.0, 0.0};
   in.new_contacts = ContactWatch::bound;
-  Reference reference(a, in);
   const double arm = 0.5 * (2.0 * r + gap);
-  reference.watch({1, 2, 1.0, 0.0, arm, arm, kNormalStiffness, gap, true});
-  reference.run();
-  ASSERT_TRUE(reference.pushed());
-  const SimulationResult result = simulate(a, in);
-  ASSERT_TRUE(result.new_contacts);
-  // The gap itself is the difference of coordinates 5e4 times as large: 1e-11 of the motion while it is closed.
-  for (int d = 0; d < 3; ++d) EXPECT_NEAR(result.final_state.ux[d], reference.ux()[d], 1e-10 * 2e-8) << d;
+  for (const int evaluations : {1, 3}) {
+    for (const double shift : {0.0, 4e-8}) {  // open and closed at the start
+      in.deformation.evaluations = evaluations;
+      in.initial.ux = {shift + 2e-8, shift - 2e-8, 0.0};
+      Reference reference(a, in);
+      reference.watch({1, 2, 1.0, 0.0, arm, arm, kNormalStiffness, gap, true});
+      reference.run();
+      ASSERT_TRUE(reference.pushed());
+      const SimulationResult result = simulate(a, in);
+      ASSERT_TRUE(result.new_contacts);
+      // The gap itself is the difference of coordinates 5e4 times as large: 1e-11 of the motion while it is closed.
+      for (int d = 0; d < 3; ++d) EXPECT_NEAR(result.final_state.ux[d], reference.ux()[d], 1e-10 * 2e-8) << d;
+    }
+  }
 }
 
 /// Both ends of a bond see the same force to the last bit: a pair of equal discs has opposite velocities.

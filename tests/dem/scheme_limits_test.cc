@@ -131,7 +131,7 @@ TEST(DirectRuns, BracketTheSoftnessOfARandomPackingWithin1Percent) {
     // The small step is bounded by the fixed point, the large one by the flip.
     for (const double fraction : {0.1, 0.8}) {
       const DeformationParameters d = strains(Scheme::lagged, c.correction, 0.25);
-      const double factor = stable_softness_factor(a, linear_contact(c.lambda), d, {}, fraction * critical).value();
+      const double factor = stable_softness_factor(a, linear_contact(c.lambda), d, {}, fraction * critical).value().at_least;
       const double fixed_point = 1.0 / fixed_point_radius(a, linear_contact(c.lambda), d);
       EXPECT_EQ(factor < 0.99 * fixed_point, fraction > 0.5);
       const auto after = [&](double share) {

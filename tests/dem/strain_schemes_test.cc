@@ -64,7 +64,7 @@ double error_of_moduli(const Assembly& a, const ContactParameters& contact, cons
     Eigen::VectorXd eps = Eigen::VectorXd::Zero(load.size());
     for (const double w : weights) eps += w * (vc.solve(load - skg * eps) - eps);
     const auto energy = [&](const Eigen::VectorXd& strain) { return forces.dot(overlaps - op.strain_overlap * strain); };
-    worst = std::max(worst, std::abs(energy(eps) / energy(state.strain) - 1.0));
+    worst = std::max(worst, std::abs(energy(eps) / energy(vc.solve(op.stress * state.bond_forces)) - 1.0));
   }
   return worst;
 }

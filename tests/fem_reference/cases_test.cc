@@ -124,6 +124,10 @@ TEST(CaseFile, RefusesWhatIsNoCaseFile) {
         std::string(100'000, '[') + std::string(100'000, ']')}) {
     EXPECT_NE(complaint(text), "") << text.substr(0, 40);
   }
+  EXPECT_EQ(complaint(""), "line 1: no JSON");
+  EXPECT_EQ(complaint("{\n\"schema\": 1,\n\"cases\": [,]}"), "line 3: no JSON");
+  EXPECT_NE(complaint("{\"schema\": " + std::string(200'000, '[') + std::string(200'000, ']') + "}").find("nested too deeply"), std::string::npos);
+  EXPECT_EQ(complaint("{\"schema\": 1e999}"), "holds a number that is too large");
   EXPECT_THROW(read_cases("/no/such/file"), CaseError);
   EXPECT_THROW(read_cases("/"), CaseError);
 }
