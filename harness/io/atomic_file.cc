@@ -10,64 +10,46 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <tuple>
-#include <utility>
 
 #include "harness/io/errors.h"
+#include "harness/io/process_stamp.h"
+#include "harness/io/streams.h"
 
 namespace ddem::harness {
 namespace {
 
 namespace fs = std::filesystem;
 
-void write_all(int descriptor, std::string_view content, const fs::path& path) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      throw machine_error(path.string(), "cannot write", errno);
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
+constexpr int kMostLinks = 40;
+constexpr std::string_view kBeginning = ".ddem-";  // of temporary files
 
-/// Follows symbolic links, so that renaming replaces the file and not the link.
-fs::path resolved(const fs::path& target) {
-  std::error_code ignored;
-  if (!fs::is_symlink(target, ignored)) return target;
-  std::error_code error;
-  fs::path real = fs::weakly_canonical(target, error);
-  if (error) throw machine_error(target.string(), "cannot follow the symbolic link", error.value());
-  return real;
-}
-
-bool is_stream(const fs::path& target) {
-  struct stat status {};
-  return ::stat(target.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
-}
-
-void require_replaceable(const fs::path& target) {
+/// Of the file that is there; nothing where none is.
+std::optional<struct stat> require_replaceable(const fs::path& target) {
   if (target.filename().empty())
     throw InputError(fmt::format("'{}' names no file to write to", target.string()));
   struct stat status {};
-  if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+  if (::lstat(target.c_str(), &status) == 0) {
+    if (S_ISREG(status.st_mode)) return status;
     throw InputError(
         fmt::format("{}: cannot be written to: it exists and is not a regular file", target.string()));
+  }
+  if (errno == ENAMETOOLONG) throw machine_error(target.string(), "cannot create a file there", errno);
+  return std::nullopt;
 }
 
-/// A name that no other process or thread uses; opened with the permissions that the user's umask grants.
-std::pair<fs::path, int> open_beside(const fs::path& target) {
-  static std::atomic<unsigned> counter{0};
-  for (;;) {
-    fs::path candidate = target;
-    candidate.replace_filename(
-        fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), counter++));
-    const int descriptor = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return {candidate, descriptor};
-    // A crashed process with the same number may have left the name behind.
-    if (errno != EEXIST && errno != EINTR)
-      throw machine_error(target.string(), "cannot create a file there", errno);
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// Gives the new file the permissions of the one that it replaces, and its owner where this user may. A group that cannot be
+/// kept gets no more than everybody has.
+void inherit(int descriptor, const struct stat& replaced) {
+  mode_t mode = replaced.st_mode & 0777;
+  if (::fchown(descriptor, replaced.st_uid, replaced.st_gid) != 0 &&
+      ::fchown(descriptor, static_cast<uid_t>(-1), replaced.st_gid) != 0) {
+    mode = (mode & ~static_cast<mode_t>(070)) | (mode & 07) << 3;
   }
+  ::fchmod(descriptor, mode);  // a file system without permissions has none to keep
 }
 
 /// fsync reaches what a library has written through a descriptor of its own, too: it is the same file. Opened anew, since
@@ -83,8 +65,7 @@ void flush_file(const fs::path& temporary, const fs::path& target) {
 /// A rename is on the disk once its directory is. Some file systems refuse, and then there is nothing to be
 /// done.
 void flush_directory(const fs::path& file) {
-  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = ::open(folder_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   ::fsync(descriptor);
   ::close(descriptor);
@@ -92,14 +73,51 @@ void flush_directory(const fs::path& file) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& target) : target_(resolved(target)) {
-  require_replaceable(target_);
-  std::tie(temporary_, descriptor_) = open_beside(target_);
+fs::path target_of(fs::path target) {
+  const fs::path named = target;
+  for (int links = 0; links < kMostLinks; ++links) {
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
+    const fs::path to = fs::read_symlink(target, error);
+    if (error) throw machine_error(named.string(), "cannot follow the symbolic link", error.value());
+    target = to.is_absolute() ? to : target.parent_path() / to;
+  }
+  throw machine_error(named.string(), "cannot follow the symbolic link", ELOOP);
+}
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(target_of(target)) {
+  if (own_descriptor(target)) throw InputError(target.string() + ": is an open stream; name a file");
+  replaced_ = require_replaceable(target_);
+  sweep_folder(folder_of(target_), kBeginning);
+  open_beside();
 }
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (committed_) return;
+  CleanupSection section;
+  ::unlink(leftover_.path.c_str());
+  section.unlist(leftover_);
+}
+
+/// A name that no other process or thread uses, and not longer for a long one's sake. A new file has the permissions that the
+/// user's umask grants; one that replaces another is this user's alone until it has those of the other.
+void AtomicFile::open_beside() {
+  static std::atomic<unsigned> counter{0};
+  const mode_t mode = replaced_ ? 0600 : 0666;
+  for (const std::string stamp = process_stamp();;) {
+    temporary_ = target_;
+    temporary_.replace_filename(fmt::format("{}{}-{}.tmp", kBeginning, stamp, counter++));
+    leftover_.path = fs::absolute(temporary_).string();  // the working folder may be another by then
+    int error = 0;
+    {
+      CleanupSection section;
+      descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+      error = errno;
+      if (descriptor_ >= 0) return section.list(leftover_);
+    }
+    if (error != EEXIST && error != EINTR) throw machine_error(target_.string(), "cannot create a file there", error);
+  }
 }
 
 void AtomicFile::append(std::string_view content) {
@@ -109,33 +127,32 @@ void AtomicFile::append(std::string_view content) {
 
 void AtomicFile::commit(Flush flush) {
   if (committed_) throw std::logic_error("a file can be committed only once");
+  if (replaced_) inherit(descriptor_, *replaced_);
   if (flush == Flush::to_disk) flush_file(temporary_, target_);
   const int close_error = ::close(descriptor_) == 0 ? 0 : errno;
   descriptor_ = -1;
   if (close_error != 0 && close_error != EINTR)
     throw machine_error(target_.string(), "cannot close", close_error);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0)
-    throw machine_error(target_.string(), "cannot put the finished file in place", errno);
-  committed_ = true;
+  rename_into_place();
   if (flush == Flush::to_disk) flush_directory(target_);
 }
 
+void AtomicFile::rename_into_place() {
+  int error = 0;
+  {
+    CleanupSection section;
+    error = ::rename(temporary_.c_str(), target_.c_str()) == 0 ? 0 : errno;
+    if (error == 0) section.unlist(leftover_);
+  }
+  if (error != 0) throw machine_error(target_.string(), "cannot put the finished file in place", error);
+  committed_ = true;
+}
+
 void write_file(const fs::path& target, std::string_view content, Flush flush) {
-  if (!is_stream(target)) {
-    AtomicFile file(target);
-    file.append(content);
-    file.commit(flush);
-    return;
-  }
-  const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) throw machine_error(target.string(), "cannot open", errno);
-  try {
-    write_all(descriptor, content, target);
-  } catch (...) {
-    ::close(descriptor);
-    throw;
-  }
-  ::close(descriptor);
+  if (is_stream(target)) return write_to_stream(target, content);
+  AtomicFile file(target);
+  file.append(content);
+  file.commit(flush);
 }
 
 std::string read_file(const fs::path& path) {

@@ -1,5 +1,8 @@
 #include "harness/io/errors.h"
 
+#include <sys/resource.h>
+
+#include <cerrno>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -16,6 +19,13 @@ std::string joined(const std::vector<std::string>& messages) {
   return all;
 }
 
+/// Of a file that is too large: what allows no larger one. Empty for other errors, and where it is the file system.
+std::string limit_text(int error_number) {
+  rlimit limit{};
+  if (error_number != EFBIG || ::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
+  return " (this process may write files of " + std::to_string(limit.rlim_cur) + " bytes: ulimit -f)";
+}
+
 }  // namespace
 
 InputError::InputError(std::vector<std::string> messages)
@@ -24,7 +34,7 @@ InputError::InputError(std::vector<std::string> messages)
 InputError::InputError(std::string message) : InputError(std::vector<std::string>{std::move(message)}) {}
 
 MachineError machine_error(const std::string& path, const std::string& what, int error_number) {
-  return MachineError(path + ": " + what + ": " + std::generic_category().message(error_number));
+  return MachineError(path + ": " + what + ": " + std::generic_category().message(error_number) + limit_text(error_number));
 }
 
 ExitCode exit_code_of(const std::exception& error) {

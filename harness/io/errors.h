@@ -28,6 +28,12 @@ class InputError : public std::runtime_error {
   std::vector<std::string> messages_;
 };
 
+/// What is asked for is beyond what a solver can do.
+class UnsupportedError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// A numerical failure; the message names the step and the particle.
 class SolverError : public std::runtime_error {
  public:
@@ -40,7 +46,7 @@ class MachineError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// "PATH: what: strerror(error_number)" as a MachineError.
+/// "PATH: what: strerror(error_number)" as a MachineError; of a file that is too large with the limit, where it is the process's.
 MachineError machine_error(const std::string& path, const std::string& what, int error_number);
 
 /// The exit code that an exception asks for. Those of the libraries below us: std::invalid_argument is wrong

@@ -6,8 +6,8 @@
 namespace ddem::harness {
 
 /// Holds FOLDER/.lock while it lives. A process that dies lets go of it, however it dies. Throws InputError,
-/// naming the process that holds it, where another one writes there; MachineError where the file cannot be
-/// made.
+/// naming the process that holds it, where another one writes there, or where .lock is a link; MachineError where the file
+/// cannot be made.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

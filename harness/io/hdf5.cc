@@ -5,8 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/io/hdf5_internal.h"
+#include "harness/io/regular_file.h"
+#include "harness/io/seal.h"
 
 namespace ddem::harness {
 namespace hdf5_detail {
@@ -29,7 +32,7 @@ hid_t written(hid_t id, const std::string& place, const std::string& what) {
 }
 
 hid_t found(hid_t id, const std::string& place, const std::string& what) {
-  if (id < 0) throw InputError(message(place, what));
+  if (id < 0) throw InputError(place + ": " + what);
   return id;
 }
 
@@ -155,31 +158,62 @@ std::vector<std::string> Hdf5Group::names() const {
 
 namespace {
 
-/// Closing the file closes all that is open in it, so that nothing keeps a committed file half written.
-/// Every use of HDF5 starts here, hence also: no clean-up at exit. After a write that the disk refused,
-/// HDF5 1.10 keeps the half-closed file, and its exit handler crashes on it: exit code 4 would become a
-/// segmentation fault. Handles close themselves, so nothing is left for that handler to do. It must be the
-/// first call of all.
+constexpr std::size_t memory_increment = 1 << 22;  // by which HDF5 lets a file in memory grow
+
+/// Closing the file closes all that is open in it, and every use of HDF5 starts here.
 Hdf5Handle access_properties() {
-  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(properties.get(), H5F_CLOSE_STRONG);
   return properties;
 }
 
+Hdf5Handle in_memory() {
+  Hdf5Handle properties = access_properties();
+  written(H5Pset_fapl_core(properties.get(), memory_increment, false), "memory", "cannot hold an HDF5 file");
+  return properties;
+}
+
+/// What a file in memory consists of, where HDF5 has it: a copy would take as much again.
+std::string_view image_of(hid_t file, const std::string& path) {
+  const std::string what = "cannot finish the HDF5 file";
+  written(H5Fflush(file, H5F_SCOPE_LOCAL), path, what);
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  void* memory = nullptr;  // of type char**
+  written(size > 0 ? H5Fget_vfd_handle(file, H5P_DEFAULT, &memory) : -1, path, what);
+  return {*static_cast<char**>(memory), static_cast<std::size_t>(size)};
+}
+
 }  // namespace
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
-  const Hdf5Handle properties = access_properties();
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, properties.get());
-  return {Hdf5Handle(written(id, path.string(), "cannot create an HDF5 file"), H5Fclose), path.string()};
+Hdf5File::Hdf5File(Hdf5Handle handle, std::string path, std::unique_ptr<AtomicFile> target)
+    : handle_(std::move(handle)), path_(std::move(path)), target_(std::move(target)) {}
+Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
+Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
+Hdf5File::~Hdf5File() = default;
+
+Hdf5File Hdf5File::create(const std::filesystem::path& target) {
+  auto file = std::make_unique<AtomicFile>(target);
+  const std::string path = target.string();
+  // In memory a file needs a name of its own, which is nowhere.
+  const hid_t id = H5Fcreate(file->temporary_path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, in_memory().get());
+  return {Hdf5Handle(written(id, path, "cannot make an HDF5 file"), H5Fclose), path, std::move(file)};
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
-  const Hdf5Handle properties = access_properties();
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties.get());
-  return {Hdf5Handle(found(id, path.string(), "cannot open as an HDF5 file"), H5Fclose), path.string()};
+  const std::string bytes = read_regular_file(path), place = path.string();
+  const std::string_view content = sealed_content(bytes, place);
+  const Hdf5Handle properties = in_memory();
+  // HDF5 copies the image, and does not write to it.
+  found(H5Pset_file_image(properties.get(), const_cast<char*>(content.data()), content.size()), place, "cannot hold it");
+  // Nor does it take a name that is a file's: below one there is none.
+  const hid_t id = H5Fopen((place + "/image").c_str(), H5F_ACC_RDONLY, properties.get());
+  return {Hdf5Handle(found(id, place, "is no HDF5 file"), H5Fclose), place, nullptr};
+}
+
+Hdf5File Hdf5File::open_unsealed(const std::filesystem::path& path) {
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access_properties().get());
+  return {Hdf5Handle(found(id, path.string(), "is no HDF5 file"), H5Fclose), path.string(), nullptr};
 }
 
 Hdf5Group Hdf5File::root() const {
@@ -189,8 +223,13 @@ Hdf5Group Hdf5File::root() const {
 
 void Hdf5File::close() {
   if (handle_.get() < 0) return;
-  written(H5Fflush(handle_.get(), H5F_SCOPE_LOCAL), path_, "cannot write");
+  if (target_) {
+    const std::string_view image = image_of(handle_.get(), path_);
+    target_->append(image);
+    target_->append(seal_of(image));
+  }
   if (!handle_.reset()) throw MachineError(hdf5_detail::message(path_, "cannot close"));
+  if (target_) target_->commit();
 }
 
 }  // namespace ddem::harness

@@ -1,20 +1,23 @@
 #pragma once
 // The part of HDF5 that results need, as values that close themselves. Serial HDF5, one thread at a time.
 //
-//   AtomicFile target("results.h5");
-//   Hdf5File file = Hdf5File::create(target.temporary_path());
+//   Hdf5File file = Hdf5File::create("results.h5");
 //   Hdf5Group signals = file.root().create_group("signals");
 //   signals.write("disc12_ux", values).set_attribute("unit", "m");
 //   file.close();
-//   target.commit();
 //
-// Writing fails as MachineError, reading as InputError, both with file, path inside it, and HDF5's reason.
-// HDF5's own messages to standard error are off.
+// Writing fails as MachineError, reading as InputError, both with file and path inside it. HDF5's own messages to
+// standard error are off.
+//
+// HDF5 1.10 crashes after a write that the disk refused, and on files with a byte changed. So it never meets either: what it
+// makes stays in memory until it is whole, and a file of ours ends with a digest of all its bytes (io/seal.h; other
+// readers of HDF5 do not look behind the end of its data).
 
 #include <hdf5.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +29,8 @@
 #endif
 
 namespace ddem::harness {
+
+class AtomicFile;
 
 /// Owns an HDF5 identifier.
 class Hdf5Handle {
@@ -140,20 +145,27 @@ class Hdf5Group : public Hdf5Node {
 
 class Hdf5File {
  public:
-  /// Replaces a file that is there: give it AtomicFile::temporary_path().
-  static Hdf5File create(const std::filesystem::path& path);
+  Hdf5File(Hdf5File&&) noexcept;
+  Hdf5File& operator=(Hdf5File&&) noexcept;
+  ~Hdf5File();
+
+  /// Takes the place of `target` at close(), whole, and vanishes without it; errors as of AtomicFile.
+  static Hdf5File create(const std::filesystem::path& target);
+  /// A file that was made by create(), every byte of it.
   static Hdf5File open(const std::filesystem::path& path);
+  /// Any file, whatever HDF5 makes of it: only for what another program of ours has just written.
+  static Hdf5File open_unsealed(const std::filesystem::path& path);
 
   Hdf5Group root() const;
-  /// Writes what HDF5 still holds back; MachineError where the disk refuses. Groups and datasets of the file
-  /// must not be used any more. The destructor closes, too, but cannot say so.
+  /// Writes the file, where it was created. Groups and datasets of it must not be used any more.
   void close();
 
  private:
-  Hdf5File(Hdf5Handle handle, std::string path) : handle_(std::move(handle)), path_(std::move(path)) {}
+  Hdf5File(Hdf5Handle handle, std::string path, std::unique_ptr<AtomicFile> target);
 
   Hdf5Handle handle_;
   std::string path_;
+  std::unique_ptr<AtomicFile> target_;  ///< of a file that is being made
 };
 
 }  // namespace ddem::harness

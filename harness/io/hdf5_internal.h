@@ -11,7 +11,8 @@ namespace ddem::harness::hdf5_detail {
 /// "PLACE: WHAT: innermost reason on HDF5's error stack", which it clears.
 std::string message(const std::string& place, const std::string& what);
 
-/// The identifier (or status) that HDF5 returned, or MachineError / InputError where it is negative.
+/// The identifier (or status) that HDF5 returned, or MachineError / InputError where it is negative. Only the first says
+/// why: it is our doing, while HDF5's words on a file are of no use to its reader.
 hid_t written(hid_t id, const std::string& place, const std::string& what);
 hid_t found(hid_t id, const std::string& place, const std::string& what);
 

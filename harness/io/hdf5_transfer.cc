@@ -19,6 +19,7 @@ using hdf5_detail::written;
 constexpr std::size_t chunked_from_bytes = 64 * 1024;
 constexpr std::size_t chunk_bytes = 1024 * 1024;   // HDF5's chunk cache holds one megabyte
 constexpr hssize_t max_elements = 10'000'000'000;  // what a broken file claims beyond is not allocated
+constexpr double most_inflated = 1100.0;           // by deflate, of what is stored
 
 std::vector<hsize_t> dimensions(const std::vector<std::size_t>& shape, std::size_t count,
                                 const std::string& place) {
@@ -62,14 +63,38 @@ struct Source {
   std::size_t count;
 };
 
+/// Whether a dataset shows parts of other files.
+bool looks_elsewhere(hid_t dataset) {
+  const Hdf5Handle made(H5Dget_create_plist(dataset), H5Pclose);
+  bool elsewhere = H5Pget_external_count(made.get()) != 0;
+  std::size_t views = 0;
+  if (H5Pget_layout(made.get()) == H5D_VIRTUAL) H5Pget_virtual_count(made.get(), &views);
+  for (std::size_t k = 0; k < views; ++k) {
+    char file[2] = "";
+    elsewhere = elsewhere || H5Pget_virtual_filename(made.get(), k, file, sizeof file) != 1 || file[0] != '.';
+  }
+  return elsewhere;
+}
+
+/// Whether what is stored can be unpacked to as many bytes: a forged size must not ask for all memory. A view stores nothing.
+bool can_hold(hid_t dataset, hssize_t count, std::size_t element_bytes) {
+  const Hdf5Handle made(H5Dget_create_plist(dataset), H5Pclose);
+  const double most = most_inflated * static_cast<double>(H5Dget_storage_size(dataset));
+  return H5Pget_layout(made.get()) == H5D_VIRTUAL || static_cast<double>(count) * static_cast<double>(element_bytes) <= most;
+}
+
 Source open_source(hid_t group, const std::string& name, const std::string& place, H5T_class_t expected) {
+  H5L_info_t link;
+  found(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), place, "no such dataset");
+  if (link.type != H5L_TYPE_HARD) throw InputError(place + ": a link instead of a dataset");
   Hdf5Handle dataset(found(H5Dopen2(group, name.c_str(), H5P_DEFAULT), place, "no such dataset"), H5Dclose);
   Hdf5Handle type(found(H5Dget_type(dataset.get()), place, "cannot read its type"), H5Tclose);
   if (H5Tget_class(type.get()) != expected) throw InputError(place + ": the dataset has another type");
   Hdf5Handle space(found(H5Dget_space(dataset.get()), place, "cannot read its shape"), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  if (count < 0 || count > max_elements)
+  if (count < 0 || count > max_elements || !can_hold(dataset.get(), count, H5Tget_size(type.get())))
     throw InputError(fmt::format("{}: {} elements cannot be read", place, count));
+  if (looks_elsewhere(dataset.get())) throw InputError(place + ": shows parts of other files");
   const int rank = H5Sget_simple_extent_ndims(space.get());
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 
 #include "harness/io/atomic_file.h"
+#include "harness/io/digest.h"
 #include "harness/io/errors.h"
+#include "harness/io/regular_file.h"
 
 namespace ddem::harness {
 namespace {
 
 constexpr int max_depth = 200;
+constexpr const char* kDigest = "digest";
 
 void require_finite(const Json& value, const std::string& place) {
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
@@ -55,11 +60,41 @@ Json parse_json(const std::string& text, const std::string& place) {
   };
   try {
     return Json::parse(text, limit_depth);
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = std::string_view(text).substr(0, error.byte > 0 ? error.byte - 1 : 0);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
+    throw InputError(fmt::format("{}: not JSON from line {}, column {} on: damaged, cut off, or another kind of file; let the command that wrote it write it again", place, line, column));
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}", place, error.what()));
+    throw InputError(fmt::format("{}: {}", place, in_words(error)));
   }
 }
 
-Json read_json(const std::filesystem::path& path) { return parse_json(read_file(path), path.string()); }
+std::string in_words(const Json::exception& error) {
+  std::string_view text = error.what();
+  if (const std::size_t end = text.find("] "); text.starts_with('[') && end != std::string_view::npos) text.remove_prefix(end + 2);
+  return std::string(text);
+}
+
+Json sealed(Json document) {
+  document.erase(kDigest);
+  std::string digest = sha256(to_text(document));
+  document[kDigest] = std::move(digest);
+  return document;
+}
+
+Json unsealed(Json document, const std::string& place) {
+  if (!document.is_object() || !document.contains(kDigest)) return document;
+  const Json digest = document[kDigest];
+  document.erase(kDigest);
+  if (digest != Json(sha256(to_text(document))))
+    throw InputError(place + ": damaged, or changed after it was written: its digest does not hold (whoever meant to change it "
+                              "removes \"digest\")");
+  return document;
+}
+
+Json read_json(const std::filesystem::path& path) {
+  return unsealed(parse_json(read_regular_file(path), path.string()), path.string());
+}
 
 }  // namespace ddem::harness

@@ -25,10 +25,21 @@ std::string to_text(const Json& document);
 /// to_text() to a file, whole or not at all; errors as in write_file().
 void write_json(const std::filesystem::path& target, const Json& document);
 
-/// Of a text; `place` is for messages. Throws InputError as read_json().
+/// Of a text; `place` is for messages. Throws InputError with line and column of what is wrong, nesting deeper than 200
+/// levels included.
 Json parse_json(const std::string& text, const std::string& place);
 
-/// Throws InputError with the path and place of what is wrong, nesting deeper than 200 levels included.
+/// What an exception of nlohmann's says, without its names and numbers.
+std::string in_words(const Json::exception& error);
+
+/// `document`, an object, with a last member "digest": the SHA-256 of to_text() of the others.
+Json sealed(Json document);
+
+/// The document without its digest. InputError with `place` where the digest does not hold; a document without one (of an
+/// older program, or made by hand) is taken as it is.
+Json unsealed(Json document, const std::string& place);
+
+/// Of a regular file, unsealed. Throws InputError.
 Json read_json(const std::filesystem::path& path);
 
 }  // namespace ddem::harness

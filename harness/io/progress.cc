@@ -5,12 +5,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <utility>
 
 namespace ddem::harness {
 namespace {
 
 constexpr std::chrono::milliseconds redraw_interval{100};
+constexpr std::string_view kWipe = "\r\033[K";
+
+std::atomic<int> drawn_on = -1;  // descriptor of the bar that stands on a terminal
 
 std::string human_time(double seconds) {
   // A guess from one fast unit may be absurd; beyond 100 hours nobody reads the seconds anyway.
@@ -23,6 +28,16 @@ std::string human_time(double seconds) {
 std::size_t terminal_width(int descriptor) {
   winsize size{};
   return ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+void put(int descriptor, std::string_view text) {
+  [[maybe_unused]] const ssize_t written = ::write(descriptor, text.data(), text.size());
+}
+
+/// A terminal that understands what redraws a line.
+bool can_redraw(int descriptor) {
+  const char* kind = std::getenv("TERM");
+  return ::isatty(descriptor) == 1 && (kind == nullptr || std::string_view(kind) != "dumb");
 }
 
 }  // namespace
@@ -41,17 +56,38 @@ std::string progress_line(std::size_t done, std::size_t total, std::chrono::dura
   return line;
 }
 
-Progress::Progress(std::size_t total, std::string label, int descriptor)
+std::string progress_log_line(std::size_t done, std::size_t total, std::chrono::duration<double> elapsed,
+                              std::string_view label) {
+  done = std::min(done, total);
+  const double fraction = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
+  const std::string left = done > 0 && done < total ? human_time(elapsed.count() * (1.0 - fraction) / fraction) + " left"
+                                                    : human_time(elapsed.count()) + " so far";
+  return fmt::format("{}/{}{}{} ({:.0f} %), {}", done, total, label.empty() ? "" : " ", label, 100.0 * fraction, left);
+}
+
+void wipe_progress(int descriptor) {
+  if (can_redraw(descriptor)) put(descriptor, kWipe);
+}
+
+void wipe_drawn_progress() noexcept {
+  if (const int descriptor = drawn_on.exchange(-1); descriptor >= 0) put(descriptor, kWipe);
+}
+
+Progress::Progress(std::size_t total, std::string label, int descriptor, std::chrono::milliseconds log_interval)
     : total_(total),
       descriptor_(descriptor),
-      on_terminal_(::isatty(descriptor) == 1),
+      on_terminal_(can_redraw(descriptor)),
       label_(std::move(label)) {
+  if (!on_terminal_) {
+    logger_ = std::jthread([this, log_interval](const std::stop_token& stop) { log(stop, log_interval); });
+    return;
+  }
   const std::lock_guard lock(mutex_);
   draw();
 }
 
 Progress::~Progress() {
-  if (on_terminal_) put("\r\033[K");
+  wipe_drawn_progress();
 }
 
 void Progress::advance(std::size_t count) {
@@ -63,6 +99,15 @@ void Progress::advance(std::size_t count) {
 void Progress::set_label(std::string label) {
   const std::lock_guard lock(mutex_);
   label_ = std::move(label);
+  draw();
+}
+
+void Progress::log(const std::stop_token& stop, std::chrono::milliseconds interval) {
+  std::unique_lock lock(mutex_);
+  for (auto wait = interval / 5; !wake_.wait_for(lock, stop, wait, [&] { return stop.stop_requested(); }); wait = interval) {
+    if (stop.stop_requested()) return;
+    put(descriptor_, progress_log_line(done_, total_, Clock::now() - start_, label_) + "\n");
+  }
 }
 
 void Progress::draw() {
@@ -71,11 +116,8 @@ void Progress::draw() {
   std::string line = progress_line(done_, total_, last_drawn_ - start_, label_);
   // A wrapped line could not be redrawn by a carriage return.
   line.resize(std::min(line.size(), terminal_width(descriptor_) - 1));
-  put("\r" + line + "\033[K");
-}
-
-void Progress::put(std::string_view text) const {
-  [[maybe_unused]] const ssize_t written = ::write(descriptor_, text.data(), text.size());
+  drawn_on = descriptor_;
+  put(descriptor_, "\r" + line + "\033[K");
 }
 
 }  // namespace ddem::harness

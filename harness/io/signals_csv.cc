@@ -83,8 +83,9 @@ SignalTable read_header(std::string_view line, const std::string& path) {
 double number(std::string_view field, const std::string& place) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
-    throw InputError(fmt::format("{}: {} is not a finite number", place, quoted(field)));
+  const std::string problem = fmt::format("{}: {} is not a finite number", place, quoted(field));
+  if (error != std::errc() || end != field.data() + field.size()) throw InputError(problem);
+  if (!std::isfinite(value)) throw NonFiniteSignal(problem);
   return value;
 }
 
@@ -105,10 +106,9 @@ void write_signals_csv(const std::filesystem::path& target, const SignalTable& t
   write_file(target, {text.data(), text.size()});
 }
 
-SignalTable read_signals_csv(const std::filesystem::path& path) {
-  const std::string content = read_file(path);
-  const std::string name = path.string();
-  std::string_view rest = content;
+SignalTable read_signals_csv(const std::filesystem::path& path) { return parse_signals_csv(read_file(path), path.string()); }
+
+SignalTable parse_signals_csv(std::string_view rest, const std::string& name) {
   SignalTable table = read_header(take_line(rest), name);
   for (int line = 2; !rest.empty(); ++line) {
     const std::vector<std::string_view> fields = split(take_line(rest));

@@ -3,7 +3,10 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "harness/io/errors.h"
 
 namespace ddem::harness {
 
@@ -19,8 +22,16 @@ struct SignalTable {
 /// signals to hand on); files as in AtomicFile, streams as in write_file().
 void write_signals_csv(const std::filesystem::path& target, const SignalTable& table);
 
-/// Reads such a file. InputError, with file, line and column, on a missing `time` column, repeated or empty
+/// NaN or infinity where a signal should have a number.
+class NonFiniteSignal : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Reads such a file. NonFiniteSignal, and InputError, with file, line and column, on a missing `time` column, repeated or empty
 /// names, rows of another length, text that is not a finite number, and times that do not increase.
 SignalTable read_signals_csv(const std::filesystem::path& path);
+/// The same of a text that stands for the file.
+SignalTable parse_signals_csv(std::string_view text, const std::string& name);
 
 }  // namespace ddem::harness

@@ -4,15 +4,21 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <utility>
 
 #include "harness/io/errors.h"
+#include "harness/io/landlock.h"
+#include "harness/io/leftovers.h"
+#include "harness/io/marked_processes.h"
 
 extern char** environ;
 
@@ -47,34 +53,46 @@ Pipe make_pipe(const std::string& program) {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// A started program; killed and waited for unless it has been waited for.
+/// A started program; killed and waited for unless it has been waited for, also where a signal ends this process.
 class Child {
  public:
-  explicit Child(pid_t pid) : pid_(pid) {}
+  explicit Child(pid_t pid) {
+    leftover_.child = pid;
+    CleanupSection().list(leftover_);
+  }
   ~Child() {
-    if (pid_ <= 0) return;
-    ::kill(pid_, SIGKILL);
-    wait(0);
+    if (leftover_.child > 0) {
+      kill();
+      wait(0);
+    }
+    CleanupSection().unlist(leftover_);
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   /// True once it has ended; `flags` 0 or WNOHANG.
   bool wait(int flags) {
-    if (pid_ <= 0) return true;
+    if (leftover_.child <= 0) return true;
     pid_t ended;
     do {
-      ended = ::waitpid(pid_, &status_, flags);
+      ended = ::waitpid(leftover_.child, &status_, flags);
     } while (ended < 0 && errno == EINTR);
     if (ended == 0) return false;
-    pid_ = 0;
+    CleanupSection section;  // where a signal ended it and is to end us, we stop here
+    leftover_.child = 0;
     return true;
   }
 
   int status() const { return status_; }
 
+  /// With its process group.
+  void kill() const {
+    ::kill(-leftover_.child, SIGKILL);
+    ::kill(leftover_.child, SIGKILL);
+  }
+
  private:
-  pid_t pid_;
+  Leftover leftover_;
   int status_ = 0;
 };
 
@@ -108,25 +126,67 @@ class Capture {
   std::string tail_, line_;
 };
 
-pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, int out, int error) {
-  std::vector<std::string> words{program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  argv.reserve(words.size() + 1);
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+/// How a program is started; all of it made before the fork.
+struct Start {
+  std::vector<char*> argv, environment;
+  std::string folder = {};  ///< empty: this process's
+  const WriteRule* rule = nullptr;
+};
 
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, error, STDERR_FILENO);
-  pid_t pid = 0;
-  const int failure = ::posix_spawnp(&pid, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw machine_error(program, "cannot be started", failure);
-  return pid;
+/// In the new process: becomes the program. With only what a process may do that was forked while other threads ran.
+[[noreturn]] void become(const Start& start, int out, int error, int failure, pid_t parent, const sigset_t& mask) {
+  ::setpgid(0, 0);
+  // However this process's parent dies, it goes, too; where that has just happened nobody tells.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int null = ::open("/dev/null", O_RDONLY);
+  if (::getppid() == parent && null >= 0 && ::dup2(null, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
+      ::dup2(error, STDERR_FILENO) >= 0) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction action {};
+      ::sigaction(signal, nullptr, &action);
+      if (action.sa_handler != SIG_IGN) ::signal(signal, SIG_DFL);
+    }
+    for (const int signal : {SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
+    ::sigprocmask(SIG_SETMASK, &mask, nullptr);
+    if (start.rule != nullptr) start.rule->apply();
+    if (start.folder.empty() || ::chdir(start.folder.c_str()) == 0) ::execvpe(start.argv[0], start.argv.data(), start.environment.data());
+  }
+  const int reason = errno;
+  [[maybe_unused]] const ssize_t told = ::write(failure, &reason, sizeof reason);
+  ::_exit(127);
 }
+
+/// Pointers to the texts, and the null that ends the list.
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> list;
+  list.reserve(words.size() + 1);
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+pid_t spawn(const std::string& program, const Start& start, int out, int error) {
+  Pipe failure = make_pipe(program);
+  sigset_t all, before;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  const pid_t parent = ::getpid(), pid = ::fork();
+  if (pid == 0) become(start, out, error, failure.write_end.get(), parent, before);
+  const int fork_error = errno;
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (pid < 0) throw machine_error(program, "cannot be started", fork_error);
+  failure.write_end.close();
+  int reason = 0;
+  ssize_t told;
+  do {
+    told = ::read(failure.read_end.get(), &reason, sizeof reason);
+  } while (told < 0 && errno == EINTR);
+  if (told != sizeof reason) return pid;  // closed by the program's start
+  ::waitpid(pid, nullptr, 0);
+  throw machine_error(program, "cannot be started", reason);
+}
+
+using Clock = std::chrono::steady_clock;
 
 /// Reads what is there without blocking longer than poll() has promised; closes at the end of the stream.
 void drain(Descriptor& from, Capture& into) {
@@ -139,29 +199,35 @@ void drain(Descriptor& from, Capture& into) {
   }
 }
 
-}  // namespace
+constexpr Clock::time_point kNever = Clock::time_point::max();
 
-std::string SubprocessResult::status() const {
-  if (signal != 0) return fmt::format("killed by signal {} ({})", signal, ::strsignal(signal));
-  return fmt::format("exit code {}", exit_code);
+/// Milliseconds until then, 100 at most.
+int wait_until(Clock::time_point end) {
+  if (end == kNever) return 100;
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+  return static_cast<int>(std::clamp<long>(left, 0, 100));
 }
 
-SubprocessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
-                             const LineCallback& on_error_line) {
+SubprocessResult run(const std::string& program, const Start& start, const LineCallback& on_error_line, Clock::time_point limit) {
   Pipe out = make_pipe(program), error = make_pipe(program);
-  Child child(spawn(program, arguments, out.write_end.get(), error.write_end.get()));
+  Child child(spawn(program, start, out.write_end.get(), error.write_end.get()));
   out.write_end.close();
   error.write_end.close();
 
+  SubprocessResult result;
   Capture out_text, error_text(on_error_line);
   // A process that the program leaves behind may keep its pipes open, and write to them for ever: once the
   // program has ended, only what a pipe can hold is still read.
   bool ended = false;
-  for (int reads_after_end = 0;
-       reads_after_end < 8 && (out.read_end.get() >= 0 || error.read_end.get() >= 0);) {
+  for (int reads_after_end = 0; reads_after_end < 8 && (out.read_end.get() >= 0 || error.read_end.get() >= 0 || (limit != kNever && !ended));) {
     ended = ended || child.wait(WNOHANG);
+    if (!ended && Clock::now() >= limit) {
+      result.timed_out = true;
+      child.kill();
+      limit = kNever;
+    }
     pollfd watched[2] = {{out.read_end.get(), POLLIN, 0}, {error.read_end.get(), POLLIN, 0}};  // skips -1
-    const int ready = ::poll(watched, 2, ended ? 0 : 100);
+    const int ready = ::poll(watched, 2, ended ? 0 : wait_until(limit));
     if (ready < 0 && errno != EINTR) throw machine_error(program, "cannot watch its output", errno);
     if (ready == 0 && ended) break;
     if (ready <= 0) continue;
@@ -169,7 +235,6 @@ SubprocessResult run_program(const std::string& program, const std::vector<std::
     if (watched[1].revents != 0) drain(error.read_end, error_text);
     reads_after_end += ended ? 1 : 0;
   }
-  SubprocessResult result;
   result.standard_error = error_text.finish();
   result.standard_output = out_text.finish();
   child.wait(0);
@@ -179,6 +244,52 @@ SubprocessResult run_program(const std::string& program, const std::vector<std::
     result.exit_code = WEXITSTATUS(child.status());
   }
   return result;
+}
+
+std::vector<std::string> words_of(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+std::vector<std::string> environment_with(const std::vector<std::string>& more) {
+  std::vector<std::string> all = more;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with("TMPDIR=")) all.emplace_back(*variable);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string SubprocessResult::status() const {
+  if (timed_out) return "killed at its time limit";
+  if (signal != 0) return fmt::format("killed by signal {} ({})", signal, ::strsignal(signal));
+  return fmt::format("exit code {}", exit_code);
+}
+
+SubprocessResult run_program(const std::string& program, const std::vector<std::string>& arguments, const LineCallback& on_error_line) {
+  std::vector<std::string> words = words_of(program, arguments);
+  Start start{pointers(words), {}};
+  for (char** variable = environ; *variable != nullptr; ++variable) start.environment.push_back(*variable);
+  start.environment.push_back(nullptr);
+  return run(program, start, on_error_line, kNever);
+}
+
+SubprocessResult run_confined(const std::string& program, const std::vector<std::string>& arguments, const Confinement& c) {
+  static std::atomic<unsigned> runs{0};
+  // What a program starts inherits the mark, wherever it goes.
+  const std::string mark = fmt::format("DDEM_RUN={}.{}", ::getpid(), runs++);
+  struct Sweep {
+    const std::string& mark;
+    ~Sweep() { kill_marked(mark); }
+  } sweep{mark};
+  std::vector<std::string> words = words_of(program, arguments), environment = environment_with({mark, "TMPDIR=" + c.folder.string()});
+  std::vector<std::filesystem::path> may_write = c.may_write;
+  may_write.push_back(c.folder);
+  const WriteRule rule(may_write);
+  const Start start{pointers(words), pointers(environment), c.folder.string(), &rule};
+  return run(program, start, {}, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(c.seconds)));
 }
 
 }  // namespace ddem::harness

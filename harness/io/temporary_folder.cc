@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "harness/io/errors.h"
+#include "harness/io/process_stamp.h"
 
 namespace ddem::harness {
 
@@ -13,14 +14,25 @@ TemporaryFolder::TemporaryFolder(const std::string& prefix) {
   std::error_code error;
   const auto base = std::filesystem::temp_directory_path(error);
   if (error) throw MachineError("no folder for temporary files: " + error.message() + "; set TMPDIR");
-  std::string name = (base / (prefix + "-XXXXXX")).string();
-  if (mkdtemp(name.data()) == nullptr) throw machine_error(name, "cannot create a temporary folder", errno);
-  path_ = name;
+  sweep_folder(base, "ddem-");
+  leftover_.path = std::filesystem::absolute(base / (prefix + "-" + process_stamp() + "-XXXXXX")).string();
+  int failure = 0;
+  {
+    CleanupSection section;
+    if (mkdtemp(leftover_.path.data()) == nullptr) {
+      failure = errno;
+    } else {
+      section.list(leftover_);
+    }
+  }
+  if (failure != 0) throw machine_error(leftover_.path, "cannot create a temporary folder", failure);
+  path_ = leftover_.path;
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+  CleanupSection().unlist(leftover_);
 }
 
 }  // namespace ddem::harness

@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <string>
 
+#include "harness/io/leftovers.h"
+
 namespace ddem::harness {
 
 class TemporaryFolder {
  public:
-  /// Below the system's folder for temporary files (TMPDIR). Throws MachineError.
+  /// Below the system's folder for temporary files (TMPDIR), where it also removes what killed processes left. Throws
+  /// MachineError. A signal that ends the process removes the folder; `prefix` begins with "ddem-".
   explicit TemporaryFolder(const std::string& prefix);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -18,6 +21,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  Leftover leftover_;
 };
 
 }  // namespace ddem::harness

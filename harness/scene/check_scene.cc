@@ -5,47 +5,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "harness/scene/check_rules.h"
+
 namespace ddem::harness {
 namespace {
-
-// Keys of which the first given one decides: those of `second` contradict it. Lists as in KeySpec::choices.
-struct Contradiction {
-  std::string_view first, second;
-};
-
-// A key that means something only for some choices of another.
-struct OnlyWith {
-  std::string_view key, selector, choices;
-};
-
-constexpr Contradiction contradictions[] = {
-    {"assembly.bonds", "assembly.bond_gap | assembly.coordination"},
-    {"continuum.mesh", "continuum.elements"},
-    {"assembly.bond_gap", "assembly.coordination"},
-    {"contact.normal_stiffness", "contact.contact_modulus"},
-    {"initial.displacement | initial.velocity",
-     "initial.wave | initial.shape | initial.width | initial.center | initial.amplitude"},
-    {"time.step", "time.step_fraction"},
-    {"time.end", "time.steps"},
-    {"probes.pairs", "probes.discs | probes.points"},
-    {"probes.discs", "probes.points"},
-};
-
-constexpr OnlyWith only_with[] = {
-    {"assembly.discs", "assembly.packing", "random | hexagonal"},
-    {"assembly.radius_ratio", "assembly.packing", "random"},
-    {"assembly.walls", "assembly.packing", "random"},
-    {"assembly.close_packed_along", "assembly.packing", "hexagonal"},
-    {"assembly.columns", "assembly.packing", "hexagonal"},
-    {"assembly.rows", "assembly.packing", "hexagonal"},
-    {"assembly.radius", "assembly.packing", "hexagonal"},
-    {"assembly.file", "assembly.packing", "file"},
-    {"assembly.bonds", "assembly.packing", "file"},
-    {"deformation.evaluations", "deformation.scheme", "lagged | none"},
-    {"deformation.relaxation", "deformation.scheme", "lagged | none"},
-    {"deformation.tolerance", "deformation.scheme", "implicit"},
-    {"initial.center", "initial.shape", "gaussian"},
-};
 
 using Keys = std::vector<std::string_view>;
 
@@ -57,37 +20,6 @@ void require(Values& values, std::string_view key) {
   if (values.given(key) || values.has(key)) return;
   const KeySpec& spec = scene_keys()[find_key(key).value()];
   values.reject(key, "missing", "give " + describe_value(spec));
-}
-
-void check_contradictions(Values& values) {
-  for (const Contradiction& contradiction : contradictions) {
-    const Keys firsts = split_names(contradiction.first);
-    const auto first =
-        std::find_if(firsts.begin(), firsts.end(), [&](std::string_view key) { return values.given(key); });
-    if (first == firsts.end()) continue;
-    for (const std::string_view key : split_names(contradiction.second)) {
-      if (values.given(key)) values.reject(key, fmt::format("contradicts {}", *first), "give one of the two");
-    }
-  }
-  if (values.has("probes.section") && values.flag("probes.section") &&
-      any_given(values, {"probes.discs", "probes.points"})) {
-    values.reject("probes.section", "sections are averaged for pairs only",
-                  "use pairs, or leave section out");
-  }
-}
-
-void check_only_with(Values& values) {
-  for (const OnlyWith& rule : only_with) {
-    if (!values.given(rule.key) || !values.has(rule.selector)) continue;
-    const Keys choices = split_names(rule.choices);
-    const bool fits = std::any_of(choices.begin(), choices.end(),
-                                  [&](std::string_view choice) { return values.is(rule.selector, choice); });
-    if (fits) continue;
-    values.reject(
-        rule.key,
-        fmt::format("means nothing unless {} = \"{}\"", rule.selector, fmt::join(choices, "\" or \"")),
-        "leave it out");
-  }
 }
 
 bool periodic_x(const Values& values) {
@@ -135,11 +67,20 @@ void check_assembly(Values& values, bool discs_needed) {
     require(values, "assembly.length");
     require(values, "assembly.width");
     if (discs_needed) require(values, "assembly.discs");
-    if (values.is("assembly.walls", "flat") && periodic_x(values)) {
-      values.reject("assembly.walls", "a cell that is periodic in x and y has no place for walls",
-                    "leave walls out, or use periodic = \"y\" for walls at the two ends");
-    }
   }
+}
+
+// The softer the discs are beside their contacts, the fewer digits are left of what the contacts add: at 1e8 half of them.
+void check_softness(Values& values) {
+  constexpr double softest = 1e8;
+  for (const char* key : {"contact.normal_stiffness", "contact.stiffness_ratio", "deformation.young_modulus", "assembly.thickness"}) {
+    if (!values.has(key)) return;
+  }
+  const double stiffest = values.number("contact.normal_stiffness") * std::max(1.0, values.number("contact.stiffness_ratio"));
+  const double modulus = stiffest / (softest * values.number("assembly.thickness"));
+  if (values.number("deformation.young_modulus") >= modulus) return;
+  values.reject("deformation.young_modulus", fmt::format("the contacts are more than {:g} times as stiff as such discs", softest),
+                fmt::format("give at least {:.3g} Pa, or scheme = \"none\"", modulus));
 }
 
 void check_materials(Values& values, bool discs_move) {
@@ -151,6 +92,7 @@ void check_materials(Values& values, bool discs_move) {
   if (!values.table_given("deformation") || values.is("deformation.scheme", "none")) return;
   require(values, "deformation.young_modulus");
   require(values, "deformation.poisson_ratio");
+  check_softness(values);
   const bool strain = values.is("deformation.plane", "strain") && values.has("deformation.poisson_ratio");
   if (strain && values.number("deformation.poisson_ratio") >= 0.5) {
     values.reject("deformation.poisson_ratio", "impossible in plane strain: 0.5 is incompressible",
@@ -188,6 +130,10 @@ void check_left_edge(Values& values, Purpose purpose) {
   if (purpose == Purpose::packing || purpose == Purpose::statics) return;
   const bool column = any_given(values, {"initial.wave"}) && values.is("initial.shape", "column");
   const bool drive = values.table_given("drive");
+  if (purpose == Purpose::continuum && periodic_x(values)) {
+    values.reject("assembly.periodic", "the continuum has two ends, a cell that is periodic in x has none", "use \"y\"");
+    return;
+  }
   if (!column && !drive) return;
   if (periodic_x(values)) {
     values.reject("assembly.periodic", "there is no left edge to displace in a cell that is periodic in x",
@@ -253,6 +199,12 @@ void check_probes(Values& values) {
   }
 }
 
+// Where no length and width say it, or probes are discs.
+bool discs_give_the_rectangle(const Values& values) {
+  const bool lattice = values.is("assembly.packing", "hexagonal") && any_given(values, {"assembly.columns", "assembly.rows", "assembly.radius"});
+  return lattice || values.is("assembly.packing", "file") || values.given("probes.discs");
+}
+
 void check_continuum(Values& values) {
   if (values.given("continuum.mesh") && !continuum_is_complete(values)) {
     values.reject("continuum.mesh", "a mesh has its own ends, not those of the discs",
@@ -274,9 +226,8 @@ bool continuum_is_complete(const Values& values) {
 }
 
 void check_scene(Values& values, Purpose purpose) {
-  const bool discs_needed = purpose != Purpose::continuum || !continuum_is_complete(values);
-  check_contradictions(values);
-  check_only_with(values);
+  const bool discs_needed = purpose != Purpose::continuum || !continuum_is_complete(values) || discs_give_the_rectangle(values);
+  check_rules(values, discs_needed);
   check_assembly(values, discs_needed);
   check_materials(values, discs_needed && purpose != Purpose::packing);
   check_load(values, purpose);

@@ -11,7 +11,7 @@ enum class Purpose {
   packing,     ///< [assembly] alone
   statics,     ///< and [material], [contact]
   simulation,  ///< and [initial] or [drive]
-  continuum,   ///< as simulation, but a complete [continuum] replaces discs, [material] and [contact]
+  continuum,   ///< as simulation, but a complete [continuum] of given length and width replaces discs, [material] and [contact]
 };
 
 /// Adds to the violations of `values`. Never accuses a key that is already known to be wrong, nor what

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "harness/scene/text_file.h"
+#include "harness/scene/units.h"
 
 namespace ddem::harness {
 namespace {
@@ -85,19 +86,36 @@ std::size_t split(std::string_view line, std::array<std::string_view, n>& fields
   }
 }
 
+// std::from_chars takes no plus sign, which other programs write.
+std::string_view without_plus(std::string_view field) {
+  const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
+  return field.substr(plus ? 1 : 0);
+}
+
 // Each returns what is wrong with the field, "" if nothing is.
 std::string_view read_field(std::string_view field, double& value) {
+  field = without_plus(field);
   const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error == std::errc::result_out_of_range) return "too large or too small to be represented";
   if (error != std::errc{} || stop != field.data() + field.size()) return "not a number";
-  return std::isfinite(value) ? "" : "not a finite number";
+  if (!std::isfinite(value)) return "not a finite number";
+  // The smallest that a file of ours holds may be round-off of 0; the largest is that of scenes.
+  return std::abs(value) <= magnitude_of(Dimension::length).most ? "" : "too large";
 }
 
 std::string_view read_field(std::string_view field, int& value) {
+  field = without_plus(field);
   const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error == std::errc::result_out_of_range) return "too large";
   if (error != std::errc{} || stop != field.data() + field.size()) return "not a whole number";
   return value >= 0 ? "" : "negative";
+}
+
+// What programs of other countries and other systems write.
+std::string other_separator(std::string_view line) {
+  if (line.find_first_of(";\t") != std::string_view::npos) return ", separated by commas and with points in the numbers";
+  if (line.find('\r') != std::string_view::npos) return ", and end lines with a line feed";
+  return line.ends_with(',') ? ", without a comma at the end" : "";
 }
 
 template <class Number, std::size_t n>
@@ -108,7 +126,7 @@ bool read_row(const Lines& lines, const std::array<std::string_view, n>& names, 
   if (count != n) {
     problems.add(lines.number(), "row", lines.line(),
                  fmt::format("{} fields instead of {}", lines.line().empty() ? 0 : count, n),
-                 fmt::format("write {}", fmt::join(names, ",")));
+                 fmt::format("write {}{}", fmt::join(names, ","), other_separator(lines.line())));
     return false;
   }
   bool good = true;
@@ -135,7 +153,7 @@ void read_rows(std::string_view text, const std::array<std::string_view, n>& nam
   std::array<std::string_view, n> found;
   if (split(lines.line(), found) != n || found != names) {
     problems.add(lines.number(), "header", lines.line(), "not the header of this kind of file",
-                 "write " + header);
+                 "write " + header + other_separator(lines.line()));
     return;
   }
   bool any = false;
@@ -165,6 +183,8 @@ Checked<DiscTable> parse_disc_table(std::string_view text, const std::string& na
   read_rows<double>(text, names, problems, [&](int line, const std::array<double, 3>& row) {
     if (!(row[2] > 0.0)) {
       problems.add(line, "radius", fmt::format("{}", row[2]), "must be greater than 0", "write it in metres");
+    } else if (std::string size = magnitude_problem(row[2], Dimension::length); !size.empty()) {
+      problems.add(line, "radius", fmt::format("{}", row[2]), std::move(size), "write it in metres");
     }
     table.x.push_back(row[0]);
     table.y.push_back(row[1]);
@@ -192,13 +212,22 @@ Checked<StateTable> parse_state_table(std::string_view text, const std::string& 
   Problems problems(name);
   StateTable table;
   const std::array<std::string_view, 3> names{"ux", "uy", "theta"};
-  read_rows<double>(text, names, problems, [&](int, const std::array<double, 3>& row) {
+  read_rows<double>(text, names, problems, [&](int line, const std::array<double, 3>& row) {
     table.ux.push_back(row[0]);
     table.uy.push_back(row[1]);
     table.theta.push_back(row[2]);
+    table.line.push_back(line);
   });
   if (!problems.none()) return problems.take();
   return table;
+}
+
+int line_of_row(const std::filesystem::path& path, std::size_t row) {
+  const Checked<std::string> text = read_text_file(path, max_bytes);
+  if (!text) return 0;
+  Lines lines(*text);
+  for (std::size_t k = 0; k < row + 2; ++k) lines.next();  // the header, and the rows up to this one
+  return lines.number();
 }
 
 Checked<DiscTable> read_disc_table(const std::filesystem::path& path) {

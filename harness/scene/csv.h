@@ -14,7 +14,7 @@
 
 namespace ddem::harness {
 
-/// Header x,y,radius: centres and radii, m. Radii are positive.
+/// Header x,y,radius: centres and radii, m. Radii are positive, and like all numbers of such files at most 1e12.
 struct DiscTable {
   std::vector<double> x, y, radius;
 };
@@ -25,12 +25,16 @@ using BondTable = std::vector<std::pair<int, int>>;
 /// Header ux,uy,theta: m and rad, or m/s and rad/s; one row a disc.
 struct StateTable {
   std::vector<double> ux, uy, theta;
+  std::vector<int> line;  ///< of the row in the file
 };
 
 /// Each reads one kind of file. What is wrong is listed by line, the first twenty problems of a file at most.
 Checked<DiscTable> read_disc_table(const std::filesystem::path& path);
 Checked<BondTable> read_bond_table(const std::filesystem::path& path);
 Checked<StateTable> read_state_table(const std::filesystem::path& path);
+
+/// The line on which a row of such a file stands, both counted from the first: lines from 1, rows from 0.
+int line_of_row(const std::filesystem::path& path, std::size_t row);
 
 /// The same for a text; `name` stands for the file in messages.
 Checked<DiscTable> parse_disc_table(std::string_view text, const std::string& name);

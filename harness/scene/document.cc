@@ -3,6 +3,8 @@
 #include <toml++/toml.h>
 #include <algorithm>
 
+#include "dem/core/narrow.h"
+
 namespace ddem::harness {
 namespace {
 
@@ -107,7 +109,7 @@ class SourceLines {
 };
 
 Position position_of(const toml::source_region& region) {
-  return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  return {narrow<int>(region.begin.line, "line"), narrow<int>(region.begin.column, "column")};
 }
 
 std::string_view unsupported_name(const toml::node& node) {

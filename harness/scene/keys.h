@@ -1,6 +1,6 @@
 #pragma once
 // Every table and key of a scene file, in one table: what the reader accepts and what the reference says.
-// A new key is a row in keys.cc, a member in scene.h, and the line of build_scene.cc that joins them.
+// A new key is a member in scene.h and a row in keys.cc, which says what it fills.
 
 #include <cstddef>
 #include <limits>
@@ -8,11 +8,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <vector>
 
 #include "harness/scene/units.h"
 
 namespace ddem::harness {
+
+class Values;
 
 enum class ValueType {
   text,
@@ -47,6 +50,8 @@ struct KeySpec {
   std::string_view choices{};  ///< "random | hexagonal | file", in the order of the enumerators in scene.h
   std::string_view default_text{};  ///< as it would stand in a scene; empty: no default
   std::string_view doc{};           ///< one line
+  /// Sets the members of a scene that the key fills, those of the table's type `owner`: see fill.h.
+  void (*fill)(const std::type_info& owner, void* table, const Values& values, std::string_view dotted) = nullptr;
 };
 
 struct TableSpec {

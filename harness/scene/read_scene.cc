@@ -34,6 +34,13 @@ void apply(Document& document, const SceneOverride& change) {
   document.entries.push_back({table, key, std::move(node)});
 }
 
+IsRead files_read_for(const ReadOptions& options) {
+  return [&options](std::string_view dotted) {
+    if (dotted == "continuum.mesh") return options.purpose == Purpose::continuum || options.continuum_too;
+    return options.purpose == Purpose::simulation || !dotted.starts_with("initial.");
+  };
+}
+
 }  // namespace
 
 SceneResult parse_scene(std::string_view text, const std::string& name,
@@ -41,7 +48,7 @@ SceneResult parse_scene(std::string_view text, const std::string& name,
   Checked<Document> document = parse_document(text, name);
   if (!document) return document.violations;
   for (const SceneOverride& change : options.overrides) apply(*document.value, change);
-  Values values(*document, name, base_folder);
+  Values values(*document, name, base_folder, files_read_for(options));
   if (!values.too_many_violations()) check_scene(values, options.purpose);
   if (!values.violations().empty()) {
     Violations violations = by_line(values.violations());
@@ -64,7 +71,7 @@ SceneResult read_scene(const std::filesystem::path& path, const ReadOptions& opt
   // Room for a hundred thousand probes, and a bound for what rubbish costs: parsing takes about 90 bytes of
   // memory and 0.2 microseconds a byte.
   constexpr std::size_t max_bytes = std::size_t{4} << 20;
-  const Checked<std::string> text = read_text_file(path, max_bytes);
+  const Checked<std::string> text = read_text_file(path, max_bytes, Pipes::taken);
   if (!text) return text.violations;
   return parse_scene(*text, path.string(), path.parent_path(), options);
 }

@@ -20,11 +20,13 @@ struct SceneOverride {
 struct ReadOptions {
   Purpose purpose = Purpose::simulation;
   std::vector<SceneOverride> overrides = {};
+  bool continuum_too = false;  ///< read for the continuum as well: its mesh must be there
 };
 
 using SceneResult = Checked<Scene>;
 
-/// Reads a scene file. Files that it names are looked for in its folder. Every problem of the file is listed,
+/// Reads a scene file. Files that it names are looked for in its folder; one that the purpose does not read need not be there: a
+/// start is for simulations, a mesh for the continuum, discs and bonds are for all. Every problem of the file is listed,
 /// in the order of its lines; a file that is no TOML has one. Does not throw on any input.
 SceneResult read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 

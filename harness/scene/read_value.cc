@@ -48,6 +48,7 @@ ReadNumber read_number(const Node& node, const KeySpec& spec) {
   if (!quantity.si) return {{}, quantity.problem};
   if (!std::isfinite(*quantity.si)) return {{}, "not a finite number"};
   if (!spec.range.contains(*quantity.si)) return {{}, fmt::format("must be {}", describe(spec.range))};
+  if (std::string size = magnitude_problem(*quantity.si, spec.dimension); !size.empty()) return {{}, std::move(size)};
   return {quantity.si, {}};
 }
 
@@ -72,11 +73,12 @@ ReadValue read_choice(const Node& node, const KeySpec& spec) {
   return unknown;
 }
 
-ReadValue read_file(const Node& node, const KeySpec& spec, const std::filesystem::path& base_folder) {
+ReadValue read_file(const Node& node, const KeySpec& spec, const std::filesystem::path& base_folder, FileCheck check) {
   const auto* text = std::get_if<std::string>(&node.value);
   if (!text) return wrong_type(node, spec);
   if (text->empty() || text->find('\0') != std::string::npos) return problem("not the name of a file", spec);
   const std::filesystem::path path = base_folder / *text;
+  if (check == FileCheck::name) return {path, {}, {}};
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   const auto missing = [&](std::string message) {
@@ -86,6 +88,9 @@ ReadValue read_file(const Node& node, const KeySpec& spec, const std::filesystem
     return missing("there is no file " + path.string());
   if (error) return missing(fmt::format("{}: {}", error.message(), path.string()));
   if (std::filesystem::is_directory(status)) return missing(path.string() + " is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) {
+    return {{}, path.string() + " is a device or a pipe, not a file", "write what comes out of it to a file, and name that"};
+  }
   return {path, {}, {}};
 }
 
@@ -130,7 +135,7 @@ ReadValue read_points(const Node& node, const KeySpec& spec) {
 
 }  // namespace
 
-ReadValue read_value(const Node& node, const KeySpec& spec, const std::filesystem::path& base_folder) {
+ReadValue read_value(const Node& node, const KeySpec& spec, const std::filesystem::path& base_folder, FileCheck check) {
   switch (spec.type) {
     case ValueType::text: {
       const auto* text = std::get_if<std::string>(&node.value);
@@ -145,7 +150,7 @@ ReadValue read_value(const Node& node, const KeySpec& spec, const std::filesyste
       return number.si ? ReadValue{*number.si, {}, {}} : problem(number.problem, spec);
     }
     case ValueType::file:
-      return read_file(node, spec, base_folder);
+      return read_file(node, spec, base_folder, check);
     case ValueType::choice:
       return read_choice(node, spec);
     case ValueType::integer:

@@ -10,22 +10,25 @@
 namespace ddem::harness {
 namespace {
 
-struct DimensionText {
+struct DimensionRow {
   std::string_view name, si_unit, examples;
+  Magnitude magnitude;
 };
 
-constexpr std::array<DimensionText, 7> dimension_texts{{
-    {"number", "", "0.25"},
-    {"length", "m", "\"16.5 mm\", \"1 um\" or 0.0165 (metres)"},
-    {"time", "s", "\"3 us\", \"2e-5 s\" or 2e-5 (seconds)"},
-    {"stress", "Pa", "\"10 GPa\", \"200 MPa\" or 1e10 (pascals)"},
-    {"density", "kg/m3", "\"2000 kg/m3\", \"2 g/cm3\" or 2000 (kg/m3)"},
-    {"stiffness", "N/m", "\"10 GN/m\", \"1e10 N/m\" or 1e10 (N/m)"},
-    {"velocity", "m/s", "\"3500 m/s\", \"3.5 km/s\" or 3500 (m/s)"},
+// The magnitudes: the inertia rho pi r^4 h/2 of a disc is from 1e-96 to 1e78, a squared frequency k/m from 1e-78 to 1e96.
+constexpr std::array<DimensionRow, 8> dimension_rows{{
+    {"number", "", "0.25", {1e-12, 1e6}},
+    {"length", "m", "\"16.5 mm\", \"1 um\" or 0.0165 (metres)", {1e-18, 1e12}},
+    {"time", "s", "\"3 us\", \"2e-5 s\" or 2e-5 (seconds)", {1e-30, 1e15}},
+    {"stress", "Pa", "\"10 GPa\", \"200 MPa\" or 1e10 (pascals)", {1e-6, 1e21}},
+    {"density", "kg/m3", "\"2000 kg/m3\", \"2 g/cm3\" or 2000 (kg/m3)", {1e-6, 1e18}},
+    {"stiffness", "N/m", "\"10 GN/m\", \"1e10 N/m\" or 1e10 (N/m)", {1e-9, 1e24}},
+    {"velocity", "m/s", "\"3500 m/s\", \"3.5 km/s\" or 3500 (m/s)", {1e-9, 1e12}},
+    {"frequency", "Hz", "\"50 kHz\", \"2 MHz\" or 5e4 (hertz)", {1e-9, 1e18}},
 }};
 
-const DimensionText& text_of(Dimension dimension) {
-  return dimension_texts[static_cast<std::size_t>(dimension)];
+const DimensionRow& row_of(Dimension dimension) {
+  return dimension_rows[static_cast<std::size_t>(dimension)];
 }
 
 // The prefixes that are in use for a dimension. Others would sooner be slips than meant: mPa for MPa.
@@ -43,7 +46,7 @@ constexpr std::array base_units{
     BaseUnit{Dimension::density, "g/cm3", 3, ""},    BaseUnit{Dimension::density, "kg/dm3", 3, ""},
     BaseUnit{Dimension::density, "t/m3", 3, ""},     BaseUnit{Dimension::stiffness, "N/m", 0, "kMG"},
     BaseUnit{Dimension::stiffness, "N/mm", 3, "kM"},
-    BaseUnit{Dimension::velocity, "m/s", 0, "k"},
+    BaseUnit{Dimension::velocity, "m/s", 0, "k"}, BaseUnit{Dimension::frequency, "Hz", 0, "kMG"},
 };
 
 struct Prefix {
@@ -145,13 +148,26 @@ std::string unit_problem(std::string_view written, const std::string& unit, Dime
 }  // namespace
 
 std::string_view dimension_name(Dimension dimension) {
-  return text_of(dimension).name;
+  return row_of(dimension).name;
 }
 std::string_view si_unit(Dimension dimension) {
-  return text_of(dimension).si_unit;
+  return row_of(dimension).si_unit;
 }
 std::string_view quantity_examples(Dimension dimension) {
-  return text_of(dimension).examples;
+  return row_of(dimension).examples;
+}
+
+Magnitude magnitude_of(Dimension dimension) {
+  return row_of(dimension).magnitude;
+}
+
+std::string magnitude_problem(double si, Dimension dimension) {
+  const auto& [name, unit, examples, magnitude] = row_of(dimension);
+  const double size = std::abs(si);
+  if (size == 0.0 || !std::isfinite(size) || (size >= magnitude.least && size <= magnitude.most)) return "";
+  const bool small = size < magnitude.least;
+  return fmt::format("too {}: a {} other than 0 is at {} {:g}{}{} in size", small ? "small" : "large", name, small ? "least" : "most",
+                     small ? magnitude.least : magnitude.most, unit.empty() ? "" : " ", unit);
 }
 
 Quantity parse_quantity(std::string_view text, Dimension dimension) {
@@ -176,6 +192,24 @@ Quantity parse_quantity(std::string_view text, Dimension dimension) {
     return {si, {}};
   }
   return {std::nullopt, unit_problem(written, unit, dimension)};
+}
+
+std::string format_quantity(double si, std::string_view unit, int digits) {
+  const std::string_view names = unit == "m" || unit == "s" ? "pnum" : unit == "Pa" || unit == "N" || unit == "N/m" || unit == "Hz" ? "kMGT" : "";
+  // What will be printed decides: 999.9999 um is 1 mm.
+  const double magnitude = std::abs(std::stod(fmt::format("{:.{}e}", si, digits - 1)));
+  int power = 0;
+  std::string prefix;
+  for (const Prefix& p : prefixes) {
+    if (names.find(p.name) == std::string_view::npos || !(magnitude > 0.0)) continue;
+    const double unit_of_prefix = std::pow(10.0, p.power_of_ten);
+    const bool below = p.power_of_ten < 0 && prefix.empty() && magnitude < 1000.0 * unit_of_prefix;
+    const bool above = p.power_of_ten > 0 && magnitude >= unit_of_prefix;
+    if (!below && !above) continue;
+    power = p.power_of_ten;
+    prefix = p.name;
+  }
+  return fmt::format("{:.{}g} {}{}", power < 0 ? si * std::pow(10.0, -power) : si / std::pow(10.0, power), digits, prefix, unit);
 }
 
 }  // namespace ddem::harness

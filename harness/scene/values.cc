@@ -28,7 +28,7 @@ std::vector<Value> read_defaults() {
   std::vector<Value> values(scene_keys().size());
   for (const Entry& entry : document->entries) {
     const std::size_t row = find_key(entry.table, entry.key).value();
-    const ReadValue read = read_value(entry.node, scene_keys()[row], {});
+    const ReadValue read = read_value(entry.node, scene_keys()[row], {}, FileCheck::exists);
     if (!read.message.empty()) throw std::logic_error("scene defaults: " + entry.key + ": " + read.message);
     values[row] = read.value;
   }
@@ -71,13 +71,13 @@ std::string suggest_key(std::string_view table, std::string_view written) {
 
 }  // namespace
 
-Values::Values(const Document& document, std::string file_name, const std::filesystem::path& base_folder)
+Values::Values(const Document& document, std::string file_name, const std::filesystem::path& base_folder, const IsRead& is_read)
     : file_name_(std::move(file_name)), tables_(document.tables), slots_(scene_keys().size()) {
   for (std::size_t row = 0; row < slots_.size(); ++row) slots_[row].value = defaults()[row];
   check_tables();
   for (const Entry& entry : document.entries) {
     if (too_many_violations()) break;
-    take(entry, base_folder);
+    take(entry, base_folder, is_read);
   }
 }
 
@@ -95,7 +95,7 @@ void Values::check_tables() {
   }
 }
 
-void Values::take(const Entry& entry, const std::filesystem::path& base_folder) {
+void Values::take(const Entry& entry, const std::filesystem::path& base_folder, const IsRead& is_read) {
   if (!entry.table.empty() && !is_table(entry.table)) return;  // said once, for the table
   const std::string dotted = dotted_name(entry.table, entry.key);
   const auto row = find_key(entry.table, entry.key);
@@ -103,7 +103,7 @@ void Values::take(const Entry& entry, const std::filesystem::path& base_folder) 
     reject_unknown(entry);
     return;
   }
-  ReadValue read = read_value(entry.node, scene_keys()[*row], base_folder);
+  ReadValue read = read_value(entry.node, scene_keys()[*row], base_folder, is_read(dotted) ? FileCheck::exists : FileCheck::name);
   slots_[*row] = {true, std::move(read.value), entry.node.line, entry.node.column, entry.node.text};
   if (!read.message.empty()) reject(dotted, std::move(read.message), std::move(read.remedy));
 }

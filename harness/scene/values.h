@@ -1,10 +1,11 @@
 #pragma once
 // The values of a scene file, each one checked by itself against its row of the key table: known key, right
-// type and unit, within range, existing file. What combinations of keys mean is checked in check_scene.h.
+// type and unit, within range, existing file where it is read. What combinations of keys mean is checked in check_scene.h.
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ struct Choice {
   std::string_view name;
 };
 
+/// Whether what the scene is read for reads the file of that dotted key.
+using IsRead = std::function<bool(std::string_view)>;
+
 using Point = std::array<double, 2>;
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::filesystem::path,
                            Choice, std::vector<std::int64_t>, std::vector<Point>>;
@@ -30,8 +34,8 @@ using Value = std::variant<std::monostate, bool, std::int64_t, double, std::stri
 /// asking for a value that is neither written, nor valid, nor has a default.
 class Values {
  public:
-  /// Checks all entries of `document`; what is wrong goes to violations().
-  Values(const Document& document, std::string file_name, const std::filesystem::path& base_folder);
+  /// Checks all entries of `document`; what is wrong goes to violations(). Whether there is a file is looked at where its key is read.
+  Values(const Document& document, std::string file_name, const std::filesystem::path& base_folder, const IsRead& is_read);
 
   /// Written in the file, right or wrong.
   bool given(std::string_view dotted) const { return slot(dotted).given; }
@@ -75,7 +79,7 @@ class Values {
   };
 
   const Slot& slot(std::string_view dotted) const;
-  void take(const Entry& entry, const std::filesystem::path& base_folder);
+  void take(const Entry& entry, const std::filesystem::path& base_folder, const IsRead& is_read);
   void reject_unknown(const Entry& entry);
   void check_tables();
   void reject_at(int line, int column, std::string key, std::string value, std::string message,

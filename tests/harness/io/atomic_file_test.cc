@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <new>
@@ -52,6 +53,81 @@ TEST(AtomicFile, HasOrdinaryPermissions) {
   write_file(scratch / "a.txt", "x");
   ::umask(mask);
   EXPECT_EQ(fs::status(scratch / "a.txt").permissions(), static_cast<fs::perms>(0644));
+}
+
+TEST(AtomicFile, KeepsThePermissionsOfWhatItReplaces) {
+  const Scratch scratch;
+  for (const unsigned mode : {0600U, 0640U, 0644U, 0666U, 0444U, 0755U, 0400U}) {
+    put(scratch / "a", "old");
+    fs::permissions(scratch / "a", static_cast<fs::perms>(mode));
+    {
+      AtomicFile file(scratch / "a");
+      file.append("new");
+      EXPECT_EQ(fs::status(file.temporary_path()).permissions(), static_cast<fs::perms>(0600)) << "readable by others meanwhile";
+      file.commit();
+    }
+    EXPECT_EQ(fs::status(scratch / "a").permissions(), static_cast<fs::perms>(mode));
+    EXPECT_EQ(content_of(scratch / "a"), "new");
+    fs::remove(scratch / "a");
+  }
+}
+
+TEST(AtomicFile, KeepsTheOwnerWhereItMay) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root";
+  const Scratch scratch;
+  put(scratch / "a", "old");
+  fs::permissions(scratch / "a", static_cast<fs::perms>(0660));
+  fs::permissions(scratch / "", fs::perms::all);
+  ASSERT_EQ(::chown((scratch / "a").c_str(), 12345, 54321), 0);
+  write_file(scratch / "a", "by root");
+  struct stat status {};
+  ASSERT_EQ(::stat((scratch / "a").c_str(), &status), 0);
+  EXPECT_TRUE(status.st_uid == 12345 && status.st_gid == 54321 && (status.st_mode & 0777) == 0660);
+  // Another user can give it neither owner nor group: nobody gains by that.
+  ASSERT_EQ(::setegid(65534) + ::seteuid(65534), 0);
+  write_file(scratch / "a", "by nobody");
+  ASSERT_EQ(::seteuid(0) + ::setegid(0), 0);
+  ASSERT_EQ(::stat((scratch / "a").c_str(), &status), 0);
+  EXPECT_TRUE(status.st_uid == 65534 && status.st_gid == 65534 && (status.st_mode & 0777) == 0600) << std::oct << status.st_mode;
+}
+
+TEST(AtomicFile, ALongNameIsAName) {
+  const Scratch scratch;
+  for (const std::size_t length : {200U, 230U, 254U, 255U}) {
+    const std::string name(length, 'n');
+    write_file(scratch / name, "x");
+    EXPECT_EQ(content_of(scratch / name), "x");
+  }
+  const std::string odd = " -\n'\"\\\xc3\xa4\xff*$(x)";
+  write_file(scratch / odd, "x");
+  EXPECT_EQ(content_of(scratch / odd), "x");
+  EXPECT_THROW(AtomicFile(scratch / std::string(256, 'n')), MachineError);
+  EXPECT_EQ(scratch.entries(), 5);
+}
+
+TEST(AtomicFile, MakesWhatALinkPromises) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "there/deep");
+  fs::create_directory_symlink("there/deep", scratch / "way");
+  fs::create_symlink("../real.txt", scratch / "there/deep/link");
+  fs::create_symlink("way/link", scratch / "link_to_link");
+  fs::create_symlink("nowhere/a.txt", scratch / "broken");
+  fs::create_symlink("loop", scratch / "loop");
+  write_file(scratch / "link_to_link", "new");
+  EXPECT_TRUE(fs::is_symlink(scratch / "link_to_link") && fs::is_symlink(scratch / "there/deep/link"));
+  EXPECT_EQ(content_of(scratch / "there/real.txt"), "new");
+  EXPECT_THROW(write_file(scratch / "broken", "x"), MachineError);
+  EXPECT_THROW(write_file(scratch / "loop", "x"), MachineError);
+  EXPECT_EQ(scratch.entries(), 5);
+}
+
+TEST(AtomicFile, AHardLinkKeepsTheOldContent) {
+  const Scratch scratch;
+  put(scratch / "a", "old");
+  fs::create_hard_link(scratch / "a", scratch / "b");
+  write_file(scratch / "a", "new");
+  EXPECT_EQ(content_of(scratch / "a"), "new");
+  EXPECT_EQ(content_of(scratch / "b"), "old");
 }
 
 TEST(AtomicFile, KeepsSymbolicLinks) {

@@ -56,5 +56,41 @@ TEST(Json, BadFilesAreInputErrors) {
   EXPECT_THROW(read_json(scratch / "missing.json"), InputError);
 }
 
+/// Refused where it was changed; a document without a digest is taken as it is.
+TEST(Json, ADigestMustHold) {
+  const Scratch scratch;
+  const Json document{{"b", 0.1}, {"a", {1, nullptr, "x"}}};
+  write_json(scratch / "s.json", sealed(document));
+  EXPECT_EQ(read_json(scratch / "s.json"), document);
+  EXPECT_EQ(sealed(sealed(document)), sealed(document));
+  std::string text = content_of(scratch / "s.json");
+  put(scratch / "s.json", Json::parse(text).dump());  // laid out in another way
+  EXPECT_EQ(read_json(scratch / "s.json"), document);
+  put(scratch / "s.json", text.replace(text.find("0.1"), 3, "0.2"));
+  const std::string reason = message_of<InputError>([&] { read_json(scratch / "s.json"); });
+  EXPECT_NE(reason.find("s.json"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("digest"), std::string::npos) << reason;
+  put(scratch / "s.json", R"({"digest": 3})");
+  EXPECT_THROW(read_json(scratch / "s.json"), InputError);
+}
+
+TEST(Json, ErrorsSayWhereInWordsOfOurs) {
+  const std::string reason = message_of<InputError>([] { parse_json("{\"a\": 1,\n \"b\": }", "here"); });
+  EXPECT_NE(reason.find("here: not JSON from line 2, column 7"), std::string::npos) << reason;
+  EXPECT_EQ(reason.find("exception"), std::string::npos) << reason;
+}
+
+TEST(Json, WhatIsDamagedIsNamedWithItsLineInOurWords) {
+  for (const char* text : {"", "{", "{\n\"a\": 1,\n", "{\n\"a\": tru", "[1, 2", "\x01", "{\"a\": 1e999}", "{} {}"}) {
+    try {
+      parse_json(text, "night.json");
+      ADD_FAILURE() << text;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()).rfind("night.json:", 0), 0u) << e.what();
+      EXPECT_EQ(std::string(e.what()).find("json.exception"), std::string::npos) << e.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ddem::harness

@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "harness/io/leftovers.h"
 
 namespace ddem::harness {
 namespace {
@@ -80,7 +83,78 @@ TEST(Progress, DrawsOnATerminalNotTooOftenFromAnyThread) {
   EXPECT_LE(static_cast<double>(drawn), 3.0 + 10.0 * elapsed);
 }
 
-TEST(Progress, SaysNothingElsewhere) {
+/// Whatever ends the program, no bar stays in front of the shell's next line.
+TEST(Progress, IsWipedWhereASignalEndsTheProgram) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const PseudoTerminal pty;
+    if (pty.terminal < 0) GTEST_SKIP() << "no pseudo-terminals here";
+    const pid_t child = ::fork();
+    if (child == 0) {
+      clean_up_on_signals();
+      Progress progress(3, "cases", pty.terminal);
+      progress.advance();
+      ::raise(signal);
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    const std::string wipe = "\r\033[K";
+    EXPECT_TRUE(pty.shown_until(wipe).ends_with(wipe)) << signal;
+  }
+}
+
+TEST(Progress, LeavesDumbTerminalsAlone) {
+  const PseudoTerminal pty;
+  if (pty.terminal < 0) GTEST_SKIP() << "no pseudo-terminals here";
+  const char* kind = ::getenv("TERM");
+  const std::string before = kind == nullptr ? "" : kind;
+  ::setenv("TERM", "dumb", 1);
+  {
+    Progress progress(3, "cases", pty.terminal, std::chrono::milliseconds(20));
+    progress.advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    wipe_progress(pty.terminal);
+  }
+  ::setenv("TERM", before.c_str(), 1);
+  const std::string shown = pty.shown_until("left\r\n");
+  EXPECT_NE(shown.find("1/3 cases"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find('\033'), std::string::npos) << shown;
+}
+
+TEST(ProgressLine, ForALog) {
+  EXPECT_EQ(progress_log_line(10, 20, seconds(80), "shear"), "10/20 shear (50 %), 1 min 20 s left");
+  EXPECT_EQ(progress_log_line(1, 4, seconds(5), ""), "1/4 (25 %), 15 s left");
+  EXPECT_EQ(progress_log_line(0, 3, seconds(5), "cases"), "0/3 cases (0 %), 5 s so far");
+  EXPECT_EQ(progress_log_line(9, 3, seconds(5), "cases"), "3/3 cases (100 %), 5 s so far");
+}
+
+/// A line now and then, also while nothing is done: as many as there are intervals, each whole.
+TEST(Progress, LinesInALog) {
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_NONBLOCK), 0);
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress(3, "cases", ends[1], std::chrono::milliseconds(50));
+    progress.advance(2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  }
+  const auto elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::string shown(4096, '\0');
+  const ssize_t bytes = ::read(ends[0], shown.data(), shown.size());
+  ASSERT_GT(bytes, 0);
+  shown.resize(static_cast<std::size_t>(bytes));
+  const auto lines = std::count(shown.begin(), shown.end(), '\n');
+  EXPECT_GE(lines, 2);
+  EXPECT_LE(static_cast<double>(lines), 1.0 + elapsed / 0.05);
+  EXPECT_TRUE(shown.starts_with("2/3 cases (67 %), ")) << shown;
+  EXPECT_EQ(shown.find('\r'), std::string::npos);
+  EXPECT_EQ(shown.find('\033'), std::string::npos);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST(Progress, ShortWorkIsSilentElsewhere) {
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_NONBLOCK), 0);
   {

@@ -4,8 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <random>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "harness/scene/csv.h"
 #include "harness/scene/nearest_name.h"
 #include "tests/harness/scene/scene_text.h"
 
@@ -86,8 +93,29 @@ TEST(Robustness, FilesThatAreNoScenes) {
   const auto read = [](const std::filesystem::path& path) { return to_string(read_scene(path).violations); };
   EXPECT_THAT(read(temporary_folder() / "none.toml"), HasSubstr("none.toml: cannot be read: No such file"));
   EXPECT_THAT(read(temporary_folder()), HasSubstr("this is a folder"));
-  EXPECT_THAT(read("/dev/zero"), HasSubstr("/dev/zero: larger than"));
+  EXPECT_THAT(read("/dev/zero"), HasSubstr("/dev/zero: this is a device, not a file"));
+  EXPECT_THAT(read(write_file("large.toml", std::string((4 << 20) + 1, '#'))), HasSubstr("larger than 4 MiB"));
   EXPECT_THAT(read(write_file("empty.toml", "")), HasSubstr("assembly.packing: missing"));
+}
+
+// A scene may come through a pipe. What a scene names is a file: it is looked at more than once.
+TEST(Robustness, PipesAreScenesButNoData) {
+  const std::filesystem::path pipe = temporary_folder() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  // For reading, too, so that opening it waits for nobody: what is small enough stays in the pipe.
+  const int end = ::open(pipe.c_str(), O_RDWR);
+  const std::string text = small_scene();
+  ASSERT_EQ(::write(end, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  std::thread writer([end] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ::close(end);
+  });
+  const SceneResult scene = read_scene(pipe);
+  writer.join();
+  EXPECT_TRUE(scene) << to_string(scene.violations);
+  EXPECT_THAT(to_string(read_disc_table(pipe).violations), HasSubstr("pipe: this is a pipe, not a file"));
+  for (const char* device : {"/dev/zero", "/dev/null"})
+    EXPECT_THAT(to_string(read_state_table(device).violations), HasSubstr("this is a device"));
 }
 
 // Truncations and mutations of a scene that has everything: each parses or is refused, and nothing else.

@@ -1,7 +1,12 @@
 // Every kind of mistake in a scene: the line, the key and the wording.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "tests/harness/scene/scene_text.h"
 
@@ -103,6 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"1e-6", "0.0", "must be different from 0"},
                     Mistake{"", "[time]\nstep = 0\n", "must be greater than 0"},
                     Mistake{"", "[time]\nsteps = 0\n", "time.steps = 0: must be from 1"},
+                    Mistake{"", "[time]\nsteps = 2000000001\n", "time.steps = 2000000001: must be from 1 to 2000000000;"},
                     Mistake{"", "[time]\nsample_every = 0\n", "must be from 1"},
                     Mistake{"", "[time]\nallow_above_critical = 1\n", "write true or false"},
                     Mistake{"", "[probes]\npairs = 0\n", "must be from 1 to 1000"},
@@ -166,29 +172,76 @@ INSTANTIATE_TEST_SUITE_P(
                 "the point [0.017, 0] lies outside the strip"},
         Mistake{"", "[boundary]\nleft = \"fixed_x\"\n", "the left edge is held, but [initial] displaces it"},
         Mistake{"682", "682\nperiodic = \"xy\"", "no left edge to displace"},
-        Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.5\nplane = \"strain\"\n",
+        Mistake{"", "[deformation]\nyoung_modulus = 1e9\npoisson_ratio = 0.5\nplane = \"strain\"\n",
                 "scene.toml:16: deformation.poisson_ratio = 0.5: impossible in plane strain"},
-        Mistake{"", "[continuum]\nyoung_modulus = 1\npoisson_ratio = 0.5\nplane = \"strain\"\n",
+        Mistake{"", "[continuum]\nyoung_modulus = 1e9\npoisson_ratio = 0.5\nplane = \"strain\"\n",
                 "scene.toml:16: continuum.poisson_ratio = 0.5: impossible in plane strain"},
-        Mistake{"", "[continuum]\nyoung_modulus = 1\nplane = \"strain\"\n", "continuum.poisson_ratio: missing"},
-        Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 1\n",
+        Mistake{"", "[continuum]\nyoung_modulus = 1e9\nplane = \"strain\"\n", "continuum.poisson_ratio: missing"},
+        Mistake{"", "[deformation]\nyoung_modulus = 1e9\npoisson_ratio = 1\n",
                 "must be greater than -1 and less than 1"}));
+
+// Keys that would be taken without a word, and do nothing.
+INSTANTIATE_TEST_SUITE_P(
+    WithoutEffect, OneMistake,
+    testing::Values(
+        Mistake{"", "width = 0.001\n", "initial.width = 0.001: means nothing unless initial.shape = \"cosine\" or \"gaussian\""},
+        Mistake{"", "shape = \"cosine\"\nwidth = 0.001\ncenter = 0.001\n", "initial.center = 0.001: means nothing unless initial.shape = \"gaussian\""},
+        Mistake{"", "[deformation]\nsolver = \"conjugate_gradients\"\nyoung_modulus = 1e11\npoisson_ratio = 0.3\n",
+                "deformation.solver = \"conjugate_gradients\": means nothing unless deformation.scheme = \"implicit\""},
+        Mistake{"", "[deformation]\ntolerance = 1e-3\nyoung_modulus = 1e11\npoisson_ratio = 0.3\n", "deformation.tolerance = 1e-3: means nothing"},
+        Mistake{"", "[deformation]\nscheme = \"implicit\"\nevaluations = 3\nyoung_modulus = 1e11\npoisson_ratio = 0.3\n", "deformation.evaluations = 3: means nothing"},
+        Mistake{"", "[deformation]\nscheme = \"implicit\"\nrelaxation = 0.5\nyoung_modulus = 1e11\npoisson_ratio = 0.3\n", "deformation.relaxation = 0.5: means nothing"},
+        Mistake{"\"random\"", "\"hexagonal\"\nseed = 1", "assembly.seed = 1: means nothing unless assembly.packing = \"random\""},
+        Mistake{"\"random\"", "\"hexagonal\"\nwalls = \"periodic\"", "assembly.walls = \"periodic\": means nothing"},
+        Mistake{"", "[probes]\npoints = [[0, 0]]\nsection = false\n", "probes.section = false: sections are averaged for pairs only"},
+        Mistake{"[contact]", "[deformation]\nscheme = \"implicit\"\nyoung_modulus = 1e11\npoisson_ratio = 0.3\n[contact]\nkinematics = \"nonlinear\"",
+                "contact.kinematics = \"nonlinear\": implicit strains need linear kinematics"},
+        Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.3\n", "the contacts are more than 1e+08 times as stiff as such discs; give at least 100 Pa"}));
+
+TEST(SceneErrors, ACellHasNoEnds) {
+  const std::string cell =
+      "[assembly]\npacking = \"hexagonal\"\nperiodic = \"xy\"\nedge_band = 1.2\n[material]\ndensity = 2000\n"
+      "[contact]\nnormal_stiffness = 1e10\nstiffness_ratio = 0.2\n[boundary]\nleft = \"fixed\"\nright = \"fixed_x\"\n";
+  EXPECT_EQ(messages(cell, Purpose::statics),
+            "scene.toml:4: assembly.edge_band = 1.2: a cell that is periodic in x and y has no ends; leave it out, or use periodic = \"y\"\n"
+            "scene.toml:11: boundary.left = \"fixed\": a cell that is periodic in x and y has no ends; leave it out, or use periodic = \"y\"\n"
+            "scene.toml:12: boundary.right = \"fixed_x\": a cell that is periodic in x and y has no ends; leave it out, or use periodic = \"y\"\n");
+}
 
 INSTANTIATE_TEST_SUITE_P(
     NotExactInTime, OneMistake,
     testing::Values(
-        Mistake{"", "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
+        Mistake{"", "[deformation]\nyoung_modulus = 1e9\npoisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
                 "of lagged strains the time step is a part; use integrator = \"verlet\", or scheme = \"implicit\""},
-        Mistake{"", "[deformation]\nscheme = \"implicit\"\nyoung_modulus = 1\npoisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
+        Mistake{"", "[deformation]\nscheme = \"implicit\"\nyoung_modulus = 1e9\npoisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
                 "the normal correction with shear stiffness has no energy"},
         Mistake{"",
-                "[deformation]\nscheme = \"implicit\"\ncorrection = \"full\"\nsolver = \"conjugate_gradients\"\nyoung_modulus = 1\n"
+                "[deformation]\nscheme = \"implicit\"\ncorrection = \"full\"\nsolver = \"conjugate_gradients\"\nyoung_modulus = 1e9\n"
                 "poisson_ratio = 0.3\n[time]\nintegrator = \"exact\"\n",
                 "or solver = \"polynomial\""},
         Mistake{"[contact]", "[time]\nintegrator = \"exact\"\n[contact]\nkinematics = \"nonlinear\"\n", "needs linear kinematics"}));
 
+// No number that a product could overflow or vanish with, whatever the key; said with line, key, value and what may be.
+TEST(SceneErrors, NumbersOfNoMagnitude) {
+  for (const KeySpec& spec : scene_keys()) {
+    if (spec.type != ValueType::number && spec.type != ValueType::points) continue;
+    for (const char* value : {"1e-300", "1e300", "-1e300", "-1e-300", "5e-324", "1.7976931348623157e308", "1e-40", "1e40"}) {
+      const std::string written = spec.type == ValueType::points ? fmt::format("[[{}, 0]]", value) : std::string(value);
+      const SceneResult result = parse(fmt::format("[{}]\n{} = {}\n", spec.table, spec.key, written));
+      const std::string dotted = dotted_name(spec.table, spec.key);
+      const bool accused = std::any_of(result.violations.begin(), result.violations.end(), [&](const Violation& v) {
+        const bool size = v.message.find("too small: a ") != std::string::npos || v.message.find("too large: a ") != std::string::npos;
+        return v.key == dotted && v.line == 2 && (size || v.message.starts_with("must be ")) && !v.remedy.empty();
+      });
+      EXPECT_TRUE(accused) << dotted << " = " << value << "\n" << to_string(result.violations);
+    }
+  }
+  EXPECT_THAT(messages(replaced(small_scene(), "= 1e10", "= 1e-300")),
+              StartsWith("scene.toml:9: contact.normal_stiffness = 1e-300: too small: a stiffness other than 0 is at least 1e-09 N/m in size"));
+}
+
 TEST(SceneErrors, PlaneStressTakesWhatPlaneStrainCannot) {
-  EXPECT_TRUE(parse(small_scene() + "[deformation]\nyoung_modulus = 1\npoisson_ratio = 0.5\n"));
+  EXPECT_TRUE(parse(small_scene() + "[deformation]\nyoung_modulus = 1e9\npoisson_ratio = 0.5\n"));
   EXPECT_TRUE(parse(small_scene() + "[time]\nstep_fraction = 1.01\nallow_above_critical = true\n"));
   EXPECT_TRUE(parse(small_scene() + "[contact.x]\n").violations.size() == 1u);
 }
@@ -224,6 +277,7 @@ TEST(SceneErrors, Files) {
               HasSubstr("scene.toml:3: assembly.file = \"none.csv\": there is no file " +
                         temporary_folder().string()));
   EXPECT_THAT(messages(start + "file = \".\"\n", Purpose::packing), HasSubstr("is a folder"));
+  EXPECT_THAT(messages(start + "file = \"/dev/zero\"\n", Purpose::packing), HasSubstr("scene.toml:3: assembly.file = \"/dev/zero\": /dev/zero is a device"));
   EXPECT_THAT(messages(start + "file = \"\"\n", Purpose::packing), HasSubstr("not the name of a file"));
   EXPECT_THAT(messages(start + "file = \"a\\u0000b\"\n", Purpose::packing),
               HasSubstr("not the name of a file"));
@@ -235,6 +289,41 @@ TEST(SceneErrors, Files) {
   EXPECT_THAT(
       messages(start + "file = \"some.csv\"\nbonds = \"some.csv\"\nbond_gap = 0.3\n", Purpose::packing),
       StartsWith("scene.toml:5: assembly.bond_gap = 0.3: contradicts assembly.bonds"));
+}
+
+/// A file that a command does not read need not be there; what can be no file's name is wrong for all.
+TEST(SceneErrors, FilesAreLookedForByThosePurposesThatReadThem) {
+  const std::string scene = small_scene().substr(0, small_scene().find("wave = "));
+  const std::string probes = "[probes]\ndiscs = [1]\n";
+  constexpr Purpose kAll[] = {Purpose::packing, Purpose::statics, Purpose::simulation, Purpose::continuum};
+  struct Case {
+    std::string key, table, text;
+    std::set<Purpose> readers;
+  };
+  const std::string complete = "[continuum]\nyoung_modulus = 1\npoisson_ratio = 0.2\ndensity = 1\n";
+  const std::string file = "[assembly]\npacking = \"file\"\n", material = small_scene().substr(small_scene().find("[material]"));
+  const std::set<Purpose> all(std::begin(kAll), std::end(kAll));
+  write_file("some.csv", "");
+  for (const Case& c : {Case{"displacement", "initial", scene + "displacement = {}\n" + probes, {Purpose::simulation}},
+                        Case{"velocity", "initial", scene + "velocity = {}\n" + probes, {Purpose::simulation}},
+                        Case{"mesh", "continuum", small_scene() + complete + "mesh = {}\n", {Purpose::continuum}},
+                        Case{"file", "assembly", file + "file = {}\n" + material, all},
+                        Case{"bonds", "assembly", file + "file = \"some.csv\"\nbonds = {}\n" + material, all}}) {
+    const auto with = [&](const std::string& name) {
+      std::string text = c.text;
+      return text.replace(text.find("{}"), 2, name);
+    };
+    for (const Purpose purpose : kAll) {
+      SCOPED_TRACE(fmt::format("{} for {}", c.key, static_cast<int>(purpose)));
+      EXPECT_EQ(messages(with("\"none.csv\""), purpose).find(c.table + "." + c.key + " = \"none.csv\": there is no file") != std::string::npos, c.readers.contains(purpose))
+          << messages(with("\"none.csv\""), purpose);
+      if (purpose == Purpose::packing) {
+        EXPECT_EQ(parse(with("\"none.csv\""), purpose).violations.empty(), !c.readers.contains(purpose));
+      }
+      EXPECT_THAT(messages(with("\"\""), purpose), HasSubstr("not the name of a file"));
+      EXPECT_THAT(messages(with("3"), purpose), HasSubstr("wrong type"));
+    }
+  }
 }
 
 TEST(SceneErrors, AStateContradictsAPulse) {

@@ -162,7 +162,7 @@ TEST(Scene, ResolvesFilesInItsOwnFolder) {
   EXPECT_EQ(state.velocity, temporary_folder() / "v0.csv");
 
   const std::string absolute = replaced(text, "discs.csv", (temporary_folder() / "discs.csv").string());
-  const SceneResult elsewhere = parse_scene(absolute, "x", "/nonexistent", {Purpose::packing});
+  const SceneResult elsewhere = parse_scene(absolute, "x", "/nonexistent", {Purpose::simulation});
   EXPECT_EQ(elsewhere.violations.size(), 3u) << "only the relative ones are missing there";
   const Scene periodic =
       good(replaced(text, "[material]", "length = 2\nwidth = 1\nperiodic = \"xy\"\n[material]"));
@@ -192,11 +192,6 @@ TEST(Scene, SchemeNoneIsPlainDem) {
   EXPECT_FALSE(good(small_scene() + "[deformation]\nscheme = \"none\"\n").deformation);
 }
 
-TEST(Scene, AColumnMayKeepTheWidthOfAnotherShape) {
-  const Scene scene = good(small_scene() + "width = \"2 mm\"\n");
-  EXPECT_EQ(std::get<InitialPulse>(scene.load).width, 0.0);
-}
-
 TEST(Scene, WhatMustBeThereDependsOnThePurpose) {
   const std::string packing = "[assembly]\npacking = \"random\"\nlength = 1\nwidth = 1\ndiscs = 9\n";
   EXPECT_TRUE(parse(packing, Purpose::packing));
@@ -217,6 +212,14 @@ TEST(Scene, WhatMustBeThereDependsOnThePurpose) {
       << "the density would come from discs that are not there";
   EXPECT_TRUE(parse(continuum + "density = 1\n", Purpose::continuum));
   EXPECT_FALSE(parse(continuum + "density = 1\n", Purpose::simulation));
+  // Discs that give the rectangle, or are probes, need what keeps them together.
+  const std::string complete = load + "[continuum]\nyoung_modulus = 1\npoisson_ratio = 0.3\ndensity = 1\n";
+  const std::string contact = "[material]\ndensity = 1\n[contact]\nnormal_stiffness = 1\nstiffness_ratio = 1\n";
+  for (const std::string& discs : {packing + "[probes]\ndiscs = [1, 2]\n", std::string("[assembly]\npacking = \"file\"\nfile = \"discs.csv\"\n"),
+                                   std::string("[assembly]\npacking = \"hexagonal\"\ncolumns = 9\nrows = 4\nradius = 1\n")}) {
+    EXPECT_FALSE(parse(discs + complete, Purpose::continuum)) << discs;
+  }
+  EXPECT_TRUE(parse(packing + "[probes]\ndiscs = [1, 2]\n" + complete + contact, Purpose::continuum));
 }
 
 TEST(Scene, DottedKeysInlineTablesCarriageReturnsAndByteOrderMarksAreToml) {

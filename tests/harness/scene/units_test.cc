@@ -41,7 +41,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"1e10 N/m", stiffness, 1e10}, Case{"3 MN/m", stiffness, 3e6},
                     Case{"10 GN/m", stiffness, 1e10}, Case{"7 kN/m", stiffness, 7e3},
                     Case{"5 N/mm", stiffness, 5e3}, Case{".5 mm", length, 0.5e-3},
-                    Case{"5. mm", length, 5e-3}, Case{"0e99999999999 m", length, 0.0}));
+                    Case{"5. mm", length, 5e-3}, Case{"0e99999999999 m", length, 0.0},
+                    Case{"50 kHz", frequency, 50e3}, Case{"2.5 MHz", frequency, 2.5e6}, Case{"1 GHz", frequency, 1e9},
+                    Case{"7 Hz", frequency, 7.0}));
 
 struct Wrong {
   const char* text;
@@ -87,6 +89,20 @@ TEST(Units, ExamplesCanBeRead) {
     const std::string one = "1 " + std::string(si_unit(dimension));
     EXPECT_EQ(parse_quantity(one, dimension).si, 1.0) << one;
   }
+}
+
+TEST(FormatQuantity, IsBetweenOneAndAThousandWhereItsUnitAllows) {
+  EXPECT_EQ(format_quantity(0.000112733, "m"), "112.733 um");
+  EXPECT_EQ(format_quantity(12.0, "m"), "12 m");
+  EXPECT_EQ(format_quantity(0.5, "m"), "500 mm");
+  EXPECT_EQ(format_quantity(999.9999999e-6, "m"), "1 mm");
+  EXPECT_EQ(format_quantity(59.099e-9, "s", 5), "59.099 ns");
+  EXPECT_EQ(format_quantity(1.33e10, "Pa"), "13.3 GPa");
+  EXPECT_EQ(format_quantity(-2.7209598, "Pa"), "-2.72096 Pa");
+  EXPECT_EQ(format_quantity(-2.7e9, "N/m"), "-2.7 GN/m");
+  EXPECT_EQ(format_quantity(0.02, "Pa"), "0.02 Pa");
+  EXPECT_EQ(format_quantity(2728.25, "m/s"), "2728.25 m/s");
+  EXPECT_EQ(format_quantity(0.0, "m"), "0 m");
 }
 
 }  // namespace
