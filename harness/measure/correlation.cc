@@ -54,6 +54,24 @@ std::vector<double> normalised(std::span<const double> values) {
 
 }  // namespace
 
+std::vector<double> match(std::span<const double> a, std::span<const double> b) {
+  if (a.empty() || b.size() < a.size() || largest_magnitude(a) == 0.0 || largest_magnitude(b) == 0.0) return {};
+  const std::vector<double> unit = normalised(a), whole = normalised(b);
+  const std::vector<double> sums = correlate(unit, whole);
+  const std::size_t places = b.size() - a.size() + 1;
+  // Energies of the pieces; each sum anew, since differences of running sums lose what is small.
+  std::vector<double> energy(places, 0.0);
+  for (std::size_t k = 0; k < places; ++k)
+    energy[k] = std::inner_product(whole.begin() + static_cast<std::ptrdiff_t>(k), whole.begin() + static_cast<std::ptrdiff_t>(k + a.size()),
+                                   whole.begin() + static_cast<std::ptrdiff_t>(k), 0.0);
+  const double least = 1e-6 * *std::max_element(energy.begin(), energy.end());
+  std::vector<double> coefficient(places, 0.0);
+  for (std::size_t k = 0; k < places; ++k) {
+    if (energy[k] > least) coefficient[k] = sums[a.size() - 1 + k] / std::sqrt(energy[k]);
+  }
+  return coefficient;
+}
+
 Outcome<double> correlation_delay(const Signal& from, const Signal& to, const Window& delays,
                                   double min_coefficient) {
   require_valid(from, delays);
@@ -72,6 +90,7 @@ Outcome<double> correlation_delay(const Signal& from, const Signal& to, const Wi
   PickOptions options;
   options.expected_amplitude = 1.0;
   options.detection_fraction = min_coefficient;
+  options.still_before = false;
   const Pick pick = pick_peak({coefficient, from.dt, first_delay}, delays, options);
   if (!pick.ok()) return FailedMeasurement{pick.error().failure, "cross-correlation: " + pick.error().reason};
   return pick.value().time;

@@ -31,6 +31,8 @@ Uncertain shear_modulus_from_shear(double bulk_density, Uncertain shear_speed) {
   return density_times_square(bulk_density, shear_speed);
 }
 
+Uncertain p_modulus_from_p(double bulk_density, Uncertain p_speed) { return density_times_square(bulk_density, p_speed); }
+
 Uncertain poisson_ratio_from_bar_and_shear(Uncertain bar_speed, Uncertain shear_speed) {
   const double relative = std::hypot(relative_error(bar_speed), relative_error(shear_speed));
   const double ratio = bar_speed.value / shear_speed.value;

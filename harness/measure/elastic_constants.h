@@ -16,6 +16,9 @@ Uncertain young_modulus_from_bar(double bulk_density, Uncertain bar_speed);
 /// G = rho c_s^2.
 Uncertain shear_modulus_from_shear(double bulk_density, Uncertain shear_speed);
 
+/// M = rho c_p^2, what resists a P wave: K + G of plane elasticity, K + 4 G/3 of a solid.
+Uncertain p_modulus_from_p(double bulk_density, Uncertain p_speed);
+
 /// nu = c_bar^2/(2 c_s^2) - 1; d(nu) = 2 (1 + nu) (d_bar - d_s), d relative errors.
 Uncertain poisson_ratio_from_bar_and_shear(Uncertain bar_speed, Uncertain shear_speed);
 

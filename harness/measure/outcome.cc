@@ -16,10 +16,22 @@ std::string_view name(Failure failure) {
       return "at_edge";
     case Failure::below_noise:
       return "below_noise";
+    case Failure::not_first:
+      return "not_first";
+    case Failure::undersampled:
+      return "undersampled";
+    case Failure::beside_source:
+      return "beside_source";
+    case Failure::too_high:
+      return "too_high";
     case Failure::ambiguous:
       return "ambiguous";
     case Failure::not_causal:
       return "not_causal";
+    case Failure::inconsistent:
+      return "inconsistent";
+    case Failure::growing:
+      return "growing";
     case Failure::narrow_band:
       return "narrow_band";
     case Failure::too_few_picks:

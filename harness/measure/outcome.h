@@ -15,8 +15,14 @@ enum class Failure {
   flat,           ///< no extremum: a constant signal, or a plateau without a peak
   at_edge,        ///< the largest value stands at the edge of the window: the peak may lie outside
   below_noise,    ///< not high enough above the noise, or below the amplitude expected
+  not_first,      ///< what came before the pulse is too high beside it: noise, or the pulse is coda
+  undersampled,   ///< too few samples, or steps, for a pulse so short
+  beside_source,  ///< probes inside the source, on its two sides, or where its pulse is not alone
+  too_high,       ///< higher than what the source can send
   ambiguous,      ///< a second, separate peak is as high
-  not_causal,     ///< the delay between two picks is not positive
+  not_causal,     ///< the delay between two picks is not positive, or that of no wave as fast as expected
+  inconsistent,   ///< the pairs contradict each other
+  growing,        ///< the run gained energy that nothing gave it
   narrow_band,    ///< too few frequencies at which both signals carry energy
   too_few_picks,  ///< fewer successful pairs than a mean needs
 };

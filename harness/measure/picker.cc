@@ -41,22 +41,22 @@ struct Upright {
   double operator[](std::size_t n) const { return sign * signal.values[n]; }
 };
 
+double root_mean_square(const Signal& signal, SampleRange range) {
+  double sum = 0.0;
+  for (std::size_t n = range.first; n < range.last; ++n) sum += signal.values[n] * signal.values[n];
+  return range.size() > 0 ? std::sqrt(sum / static_cast<double>(range.size())) : 0.0;
+}
+
 Outcome<double> noise_level(const Signal& signal, const Window& window, const PickOptions& options) {
-  if (!options.quiet && options.expected_amplitude) return 0.0;
-  SampleRange range;
-  if (options.quiet) {
-    range = samples_in(signal, *options.quiet);
-  } else {
-    range = {0, samples_in(signal, window).first};
-  }
-  if (range.size() < min_quiet_samples)
+  // What is as high as expected is told from noise by what comes before it: see precursor_failure().
+  if (!options.quiet && (options.expected_amplitude || options.noise)) return options.noise.value_or(0.0);
+  const SampleRange quiet = options.quiet ? samples_in(signal, *options.quiet) : SampleRange{0, samples_in(signal, window).first};
+  if (quiet.size() < min_quiet_samples)
     return FailedMeasurement{Failure::no_reference,
                              fmt::format("only {} samples before the arrival to measure the noise in, {} "
                                          "needed, and no expected amplitude given",
-                                         range.size(), min_quiet_samples)};
-  double sum = 0.0;
-  for (std::size_t n = range.first; n < range.last; ++n) sum += signal.values[n] * signal.values[n];
-  return std::sqrt(sum / static_cast<double>(range.size()));
+                                         quiet.size(), min_quiet_samples)};
+  return std::max(options.noise.value_or(0.0), root_mean_square(signal, quiet));
 }
 
 /// Contiguous samples around `peak` that are at least `level`; one sample below it does not end the run, two
@@ -101,7 +101,56 @@ std::optional<FailedMeasurement> rival_failure(const Upright& s, SampleRange win
   return std::nullopt;
 }
 
-Pick refine(const Upright& s, std::size_t peak, double noise, const PickOptions& options) {
+/// Where the pulse passes half of its height, in samples.
+struct HalfHeight {
+  double rise = 0.0, fall = 0.0;
+};
+
+HalfHeight half_height(const Upright& s, std::size_t peak) {
+  const double half = 0.5 * s[peak];
+  const SampleRange run = run_above(s, peak, half);
+  const auto crossing = [&](std::size_t inside, std::size_t outside) {
+    const double share = (s[inside] - half) / (s[inside] - s[outside]);
+    return static_cast<double>(inside) + share * (static_cast<double>(outside) - static_cast<double>(inside));
+  };
+  return {run.first > 0 ? crossing(run.first, run.first - 1) : 0.0,
+          run.last < s.signal.size() ? crossing(run.last - 1, run.last) : static_cast<double>(s.signal.size())};
+}
+
+// A sin^2 begins two of its rises from half height before its peak, a Gaussian is down to 0.2 % after three.
+constexpr double foot_in_rises = 3.0;
+
+SampleRange before_pulse(std::size_t peak, const HalfHeight& half) {
+  const double foot = static_cast<double>(peak) - foot_in_rises * (static_cast<double>(peak) - half.rise);
+  return {0, foot > 0.0 ? static_cast<std::size_t>(foot) : 0};
+}
+
+/// Coda may be as high as what it follows, and noise is as high before its highest crest as after: a pulse that nothing
+/// comes before is neither.
+std::optional<FailedMeasurement> precursor_failure(double peak, double before, const PickOptions& options) {
+  if (peak >= options.signal_to_noise * before) return std::nullopt;
+  return FailedMeasurement{Failure::not_first,
+                           fmt::format("what comes before the pulse has {:.3g} of its height (root mean square), more than one in {}: "
+                                       "noise, or the pulse is not the first",
+                                       before / peak, options.signal_to_noise)};
+}
+
+// Less than this of the pulse's height cuts its top nowhere: six times that is a tenth of what the fit covers.
+constexpr double least_roughness = 1e-3;
+
+/// Noise from one sample to the next, as a root mean square: of the second differences, which leave out what is smooth,
+/// such as the forerunners of a wave. White noise has the same by its values and by its second differences over sqrt(6).
+double roughness(const Upright& s, SampleRange range, std::size_t peak) {
+  double sum = 0.0;
+  for (std::size_t n = range.first + 1; n + 1 < range.last; ++n) {
+    const double second = s[n + 1] - 2.0 * s[n] + s[n - 1];
+    sum += second * second;
+  }
+  const double rough = range.size() > 2 ? std::sqrt(sum / (6.0 * static_cast<double>(range.size() - 2))) : 0.0;
+  return rough < least_roughness * s[peak] ? 0.0 : rough;
+}
+
+Pick refine(const Upright& s, std::size_t peak, double noise, const HalfHeight& half_height, const PickOptions& options) {
   const double depth = options.top_fraction * s[peak] + noise_band * noise;
   SampleRange run = run_above(s, peak, s[peak] - depth);
   const bool enough = run.size() >= 3;
@@ -114,7 +163,7 @@ Pick refine(const Upright& s, std::size_t peak, double noise, const PickOptions&
   if (!(fall > 0.0) || (enough && fall < 0.2 * depth) || std::abs(fit.vertex()) > half)
     return FailedMeasurement{Failure::flat, "the top of the pulse is a plateau, not a peak"};
   const double middle = 0.5 * static_cast<double>(run.first + run.last - 1);
-  return Arrival{s.signal.time(middle + fit.vertex()), fit.at_vertex()};
+  return Arrival{s.signal.time(middle + fit.vertex()), fit.at_vertex(), (half_height.fall - half_height.rise) * s.signal.dt};
 }
 
 }  // namespace
@@ -144,8 +193,12 @@ Pick pick_peak(const Signal& signal, const Window& window, const PickOptions& op
     return FailedMeasurement{Failure::at_edge,
                              fmt::format("the largest value stands at the edge of the window, {:.6g} s",
                                          signal.time(static_cast<double>(peak)))};
-  if (auto failure = rival_failure(s, range, peak, noise.value(), options)) return *failure;
-  return refine(s, peak, noise.value(), options);
+  const HalfHeight half = half_height(s, peak);
+  const SampleRange before = options.still_before ? before_pulse(peak, half) : SampleRange{};
+  const double rough = roughness(s, before, peak);
+  if (auto failure = rival_failure(s, range, peak, rough, options)) return *failure;
+  if (auto failure = precursor_failure(s[peak], root_mean_square(signal, before), options)) return *failure;
+  return refine(s, peak, rough, half, options);
 }
 
 Pick pick_centroid(const Signal& signal, const Window& window, double half_width,
@@ -154,8 +207,13 @@ Pick pick_centroid(const Signal& signal, const Window& window, double half_width
     throw std::invalid_argument("the half width of a centroid window must be positive");
   Pick peak = pick_peak(signal, window, options);
   if (!peak.ok()) return peak;
+  const Outcome<double> centroid = centroid_around(signal, peak.value().time, half_width, options.polarity);
+  if (!centroid.ok()) return centroid.error();
+  return Arrival{centroid.value(), peak.value().amplitude, peak.value().width};
+}
 
-  const double centre = (peak.value().time - signal.t0) / signal.dt;  // in samples
+Outcome<double> centroid_around(const Signal& signal, double time, double half_width, Polarity polarity) {
+  const double centre = (time - signal.t0) / signal.dt;  // in samples
   const double begin = centre - half_width / signal.dt;
   const double end = centre + half_width / signal.dt;
   if (begin < 0.0 || end > static_cast<double>(signal.size() - 1))
@@ -177,11 +235,11 @@ Pick pick_centroid(const Signal& signal, const Window& window, double half_width
               (value(left) * (left - centre) + 4.0 * value(middle) * (middle - centre) +
                value(right) * (right - centre));
   }
-  const double sign = options.polarity == Polarity::positive ? 1.0 : -1.0;
+  const double sign = polarity == Polarity::positive ? 1.0 : -1.0;
   const double shift = moment / area;
   if (!(sign * area > 0.0) || !(std::abs(shift) * signal.dt < half_width))
     return FailedMeasurement{Failure::ambiguous, "the pulse has no centroid: it is not of one sign"};
-  return Arrival{signal.time(centre + shift), peak.value().amplitude};
+  return signal.time(centre + shift);
 }
 
 }  // namespace ddem::harness

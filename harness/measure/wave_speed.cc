@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace ddem::harness {
 namespace {
@@ -44,7 +45,7 @@ WaveSpeed wave_speed(std::span<const PairDelay> pairs, std::optional<std::size_t
 
   std::vector<PairSpeed> results;
   std::vector<double> speeds;
-  std::string reasons;
+  std::string reasons, last;
   for (const PairDelay& pair : pairs) {
     if (!(pair.distance > 0.0) || !std::isfinite(pair.distance))
       throw std::invalid_argument(
@@ -53,8 +54,10 @@ WaveSpeed wave_speed(std::span<const PairDelay> pairs, std::optional<std::size_t
     if (result.speed.ok()) {
       speeds.push_back(result.speed.value());
     } else {
-      reasons += fmt::format("; pair {}-{}: {} ({})", pair.from, pair.to, name(result.speed.error().failure),
-                             result.speed.error().reason);
+      // What all of them share is said once.
+      const std::string reason = fmt::format("{} ({})", name(result.speed.error().failure), result.speed.error().reason);
+      reasons += fmt::format("; pair {}-{}: {}", pair.from, pair.to, reason == last ? "the same" : reason);
+      last = reason;
     }
     results.push_back(std::move(result));
   }

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <stdexcept>
 #include <cmath>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <string_view>
 #include <vector>
 
 #include "dem/assembly/contacts.h"
-#include "dem/assembly/packing_check.h"
+#include "dem/core/narrow.h"
 #include "harness/io/errors.h"
+#include "harness/model/file_packing.h"
+#include "harness/model/memory_need.h"
 #include "harness/model/random_packing.h"
-#include "harness/scene/csv.h"
 #include "harness/scene/place.h"
 #include "meshes/packings/hexagonal.h"
 
@@ -49,71 +52,27 @@ Packing hexagonal_packing(const HexagonalPacking& p, Periodicity periodic) {
   spec.periodic_x = periodic.x;
   spec.periodic_y = periodic.y;
   std::visit(Overload{[&](const HexagonalLattice& l) {
-                        spec.columns = static_cast<int>(l.columns);
-                        spec.rows = static_cast<int>(l.rows);
+                        spec.columns = narrow<int>(l.columns, "assembly.columns");
+                        spec.rows = narrow<int>(l.rows, "assembly.rows");
                         spec.radius = l.radius;
                       },
                       [&](const HexagonalRectangle& r) {
                         spec.length = r.length;
                         spec.width = r.width;
-                        spec.discs = static_cast<int>(r.discs);
+                        spec.discs = narrow<int>(r.discs, "assembly.discs");
                       }},
              p.size);
   return packings::hexagonal(spec);
 }
 
-Packing unchecked_file_packing(const Scene& scene, const FilePacking& p) {
-  const auto table = read_disc_table(p.discs);
-  if (!table) {
-    std::vector<std::string> lines;
-    for (const Violation& v : table.violations) lines.push_back(to_string(v));
-    throw InputError(lines);
-  }
-  Packing packing{table->x, table->y, table->radius, {}, 0.0, 0.0};
-  if (packing.size() < 2) throw InputError(scene_problem(scene, "assembly.file", "fewer than two discs", "give at least two rows"));
-  const auto extent = [&](const std::vector<double>& c) {
-    double lo = c[0], hi = c[0];
-    for (std::size_t d = 0; d < c.size(); ++d) {
-      lo = std::min(lo, c[d] - packing.radius[d]);
-      hi = std::max(hi, c[d] + packing.radius[d]);
-    }
-    return hi - lo;
-  };
-  packing.length = p.length.value_or(extent(packing.x));
-  packing.width = p.width.value_or(extent(packing.y));
-  packing.period = {scene.assembly.periodic.x ? packing.length : 0.0, scene.assembly.periodic.y ? packing.width : 0.0};
-  return packing;
-}
-
-Packing file_packing(const Scene& scene, const FilePacking& p) {
-  Packing packing = unchecked_file_packing(scene, p);
-  const auto problems = packing_problems(packing);
-  if (!problems.empty()) {
-    std::vector<std::string> lines;
-    for (const std::string& problem : problems) lines.push_back(p.discs.string() + ": " + problem);
-    lines.push_back("  (discs count from 0 in the order of the rows; move them apart, shrink them, or correct the periods)");
-    throw InputError(lines);
-  }
-  return packing;
-}
-
 Packing packing_with(const Scene& scene, Periodicity periodic) {
+  require_memory_of_discs(scene, DiscWork::packing);
   return naming_scene(scene, "assembly.packing", [&] {
     return std::visit(Overload{[&](const RandomPacking& p) { return random_packing(p, periodic); },
                                [&](const HexagonalPacking& p) { return hexagonal_packing(p, periodic); },
                                [&](const FilePacking& p) { return file_packing(scene, p); }},
                       scene.assembly.packing);
   });
-}
-
-Bonds bonds_of_file(const Packing& packing, const BondFile& file) {
-  const auto table = read_bond_table(file.path);
-  if (!table) {
-    std::vector<std::string> lines;
-    for (const Violation& v : table.violations) lines.push_back(to_string(v));
-    throw InputError(lines);
-  }
-  return bonds_between(packing, *table);
 }
 
 /// Discs at flat walls have neighbours on one side only: they do not count.
@@ -143,7 +102,7 @@ Bonding bonding_with(const Scene& scene, const Packing& packing, Periodicity per
   if (const auto* c = std::get_if<BondCoordination>(&scene.assembly.bonding))
     b.gap = gap_for(scene, packing, periodic, c->bonds_per_disc);
   b.bonds = b.gap ? bonds_within_gap(packing, *b.gap)
-                  : bonds_of_file(packing, std::get<BondFile>(scene.assembly.bonding));
+                  : file_bonds(packing, std::get<BondFile>(scene.assembly.bonding));
   b.coordination = coordination(b.bonds, counted_discs(scene, packing, periodic));
   return b;
 }
@@ -166,6 +125,27 @@ ddem::Assembly assembly_with(const Scene& scene, Periodicity periodic) {
   });
 }
 
+/// A lattice closes on an even number of rows only, and on so many that no pair of discs touches through two images, however
+/// large the gap (8 r; rows lie sqrt(3) r apart, or 2 r): more rows are the same material.
+HexagonalLattice closing_lattice(const Scene& scene, const HexagonalPacking& hexagonal) {
+  const bool along_x = hexagonal.close_packed_along == Axis::x;
+  HexagonalLattice lattice;
+  if (const auto* given = std::get_if<HexagonalLattice>(&hexagonal.size)) {
+    lattice = *given;
+  } else {
+    const Packing free = build_packing(scene);
+    lattice.radius = free.radius.front();
+    lattice.rows = std::lround(free.width / ((along_x ? std::sqrt(3.0) : 2.0) * lattice.radius));
+    lattice.columns = static_cast<std::int64_t>(free.size()) / lattice.rows;
+  }
+  lattice.rows = along_x ? std::max<std::int64_t>(6, lattice.rows + lattice.rows % 2) : std::max<std::int64_t>(5, lattice.rows);
+  return lattice;
+}
+
+bool reaches_through_y(const ddem::Assembly& a) {
+  return cut_at_edges(a.packing, a.bonds, false, true).size() < a.bonds.size();
+}
+
 }  // namespace
 
 Packing build_packing(const Scene& scene) { return packing_with(scene, scene.assembly.periodic); }
@@ -184,27 +164,22 @@ ddem::Assembly build_network(const Scene& scene) {
   });
 }
 
-std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene) {
-  if (scene.assembly.periodic.y) return build_assembly(scene);
+LaterallyClosed build_laterally_closed(const Scene& scene) {
+  if (scene.assembly.periodic.y) return {build_assembly(scene), ""};
   Scene closed = scene;
   closed.assembly.periodic.y = true;
   if (const auto* file = std::get_if<FilePacking>(&scene.assembly.packing)) {
-    const bool own_bonds = std::holds_alternative<BondFile>(scene.assembly.bonding);
-    if (!file->width || own_bonds || !packing_problems(unchecked_file_packing(closed, *file)).empty()) return std::nullopt;
+    if (!file->width) return {std::nullopt, "a packing from a file does not close in y without its width as the period: give assembly.width"};
+    if (std::holds_alternative<BondFile>(scene.assembly.bonding)) return {std::nullopt, "listed bonds do not close in y: let bond_gap make them"};
   }
-  // A lattice closes on an even number of rows only: one more row is the same material.
-  if (auto* hexagonal = std::get_if<HexagonalPacking>(&closed.assembly.packing)) {
-    if (auto* lattice = std::get_if<HexagonalLattice>(&hexagonal->size)) {
-      if (hexagonal->close_packed_along == Axis::x) lattice->rows += lattice->rows % 2;
-    } else {
-      const Packing free = build_packing(scene);
-      const double r = free.radius.front();
-      const auto rows = std::lround(free.width / (hexagonal->close_packed_along == Axis::x ? std::sqrt(3.0) * r : 2.0 * r));
-      const auto columns = static_cast<long>(free.size()) / rows;
-      hexagonal->size = HexagonalLattice{columns, hexagonal->close_packed_along == Axis::x ? rows + rows % 2 : rows, r};
-    }
+  if (auto* hexagonal = std::get_if<HexagonalPacking>(&closed.assembly.packing)) hexagonal->size = closing_lattice(scene, *hexagonal);
+  try {
+    LaterallyClosed out{build_assembly(closed), ""};
+    if (reaches_through_y(*out.assembly)) return out;
+    return {std::nullopt, "no bond reaches through the period in y, the width: give the width at which the packing repeats"};
+  } catch (const InputError& e) {
+    return {std::nullopt, e.what()};
   }
-  return build_assembly(closed);
 }
 
 ContactParameters contact_parameters(const Scene& scene) {

@@ -2,6 +2,7 @@
 // From a scene to the discs and bonds that it describes.
 
 #include <optional>
+#include <string>
 
 #include "dem/assembly/assembly.h"
 #include "dem/core/material.h"
@@ -30,11 +31,17 @@ ddem::Assembly build_assembly(const Scene& scene);
 /// The same, in one piece: for statics. Bonds that the scene lists may leave pieces apart, which then is an InputError.
 ddem::Assembly build_network(const Scene& scene);
 
-/// The same material without free edges above and below: the random packing or a lattice closed in y. Empty for a
-/// packing from a file that does not close: without a width to serve as its period, with bonds of its own, or whose
-/// discs would overlap through the period. Of a packing between four flat walls the counterpart is another packing of the
-/// same seed, radii distribution and coordination, with walls at its ends only. Its moduli are what a P or shear wave between periodic edges sees.
-std::optional<ddem::Assembly> build_laterally_closed(const Scene& scene);
+struct LaterallyClosed {
+  std::optional<ddem::Assembly> assembly;
+  std::string missing;  ///< why there is none, and what would help
+};
+
+/// The same material without free edges above and below: the random packing closed in y, or a lattice of as many rows as it
+/// takes. None of a packing from a file that does not close: without a width to serve as its period, with bonds of its own,
+/// whose discs would overlap through the period or do not reach each other; none of a random packing too narrow for a
+/// period. Of a packing between four flat walls the counterpart is another packing of the same seed, radii distribution and
+/// coordination, with walls at its ends only. Its moduli are what a P or shear wave between periodic edges sees.
+LaterallyClosed build_laterally_closed(const Scene& scene);
 
 ContactParameters contact_parameters(const Scene& scene);
 DeformationParameters deformation_parameters(const Scene& scene);

@@ -5,83 +5,55 @@
 #include <numbers>
 
 #include "harness/io/errors.h"
-#include "harness/model/assemble.h"
 #include "harness/scene/csv.h"
 
 namespace ddem::harness {
 namespace {
 
-double profile(const InitialPulse& p, double s) {
-  switch (p.shape) {
-    case PulseShape::column: return 0.0;  // by discs, not by distance
-    case PulseShape::cosine:
-      return s < p.width ? 0.5 * p.amplitude * (1.0 + std::cos(std::numbers::pi * s / p.width)) : 0.0;
-    case PulseShape::gaussian: {
-      const double z = (s - p.center) / p.width;
-      return p.amplitude * std::exp(-0.5 * z * z);
-    }
-  }
-  return 0.0;
-}
+constexpr double kGaussianReach = 3.0;  // standard widths: what is left is 1 % of the height
 
 ddem::InitialState pulse_state(const Scene& scene, const InitialPulse& pulse, const ddem::Assembly& a) {
   ddem::InitialState state;
   auto& u = pulse.wave == Wave::longitudinal ? state.ux : state.uy;
   u.assign(a.size(), 0.0);
   if (pulse.shape == PulseShape::column) {
-    for (const int d : edge_discs(a.packing, ddem::Edge::left, edge_band(scene, a))) u[d] = pulse.amplitude;
-    return state;
+    for (const int d : discs_of_edge(scene, a, ddem::Edge::left)) u[d] = pulse.amplitude;
+  } else {
+    const auto [left, right] = network_ends(a);
+    require_inside(scene, pulse, right - left);
+    for (std::size_t d = 0; d < a.size(); ++d) u[d] = pulse_at(pulse, a.packing.x[d] - left);
   }
-  const double left = *std::min_element(a.packing.x.begin(), a.packing.x.end());
-  for (std::size_t d = 0; d < a.size(); ++d) u[d] = profile(pulse, a.packing.x[d] - left);
+  settle_held_discs(scene, a, pulse, u);
   return state;
 }
 
-StateTable read_state(const std::filesystem::path& path, std::size_t discs) {
+StateTable read_state(const Scene& scene, const ddem::Assembly& a, const std::string& key, const std::filesystem::path& path) {
   auto table = read_state_table(path);
   if (!table) {
     std::vector<std::string> lines;
     for (const Violation& v : table.violations) lines.push_back(to_string(v));
     throw InputError(lines);
   }
-  if (table->ux.size() != discs) {
+  if (table->ux.size() != a.size()) {
     throw InputError(path.string() + ": " + std::to_string(table->ux.size()) + " rows, but the assembly has " +
-                      std::to_string(discs) + " discs; give one row a disc");
+                      std::to_string(a.size()) + " discs; give one row a disc");
   }
-  return *table;
-}
-
-void hold(HeldDofs& held, const std::vector<int>& discs, std::size_t n, Edge edge) {
-  if (edge == Edge::free) return;
-  for (auto* mask : {&held.x, &held.y, &held.theta}) {
-    if (mask->empty()) mask->assign(n, 0);
-  }
-  for (const int d : discs) {
-    held.x[d] = 1;
-    if (edge == Edge::fixed) held.y[d] = held.theta[d] = 1;
-  }
+  settle_held_discs(scene, a, key, path, *table.value);
+  return std::move(*table.value);
 }
 
 }  // namespace
-
-HeldDofs held_dofs(const Scene& scene, const ddem::Assembly& a) {
-  HeldDofs held;
-  const double band = edge_band(scene, a);
-  hold(held, edge_discs(a.packing, ddem::Edge::right, band), a.size(), scene.boundary.right);
-  hold(held, edge_discs(a.packing, ddem::Edge::left, band), a.size(), scene.boundary.left);
-  return held;
-}
 
 ddem::InitialState initial_state(const Scene& scene, const ddem::Assembly& a) {
   if (const auto* pulse = std::get_if<InitialPulse>(&scene.load)) return pulse_state(scene, *pulse, a);
   ddem::InitialState state;
   if (const auto* files = std::get_if<InitialState>(&scene.load)) {
     if (files->displacement) {
-      StateTable t = read_state(*files->displacement, a.size());
+      StateTable t = read_state(scene, a, "initial.displacement", *files->displacement);
       state.ux = std::move(t.ux), state.uy = std::move(t.uy), state.theta = std::move(t.theta);
     }
     if (files->velocity) {
-      StateTable t = read_state(*files->velocity, a.size());
+      StateTable t = read_state(scene, a, "initial.velocity", *files->velocity);
       state.vx = std::move(t.ux), state.vy = std::move(t.uy), state.omega = std::move(t.theta);
     }
   }
@@ -91,8 +63,10 @@ ddem::InitialState initial_state(const Scene& scene, const ddem::Assembly& a) {
 std::optional<EdgeDrive> edge_drive(const Scene& scene, const ddem::Assembly& a) {
   const auto* drive = std::get_if<Drive>(&scene.load);
   if (drive == nullptr) return std::nullopt;
-  return EdgeDrive{edge_discs(a.packing, ddem::Edge::left, edge_band(scene, a)),
-                   drive->wave == Wave::longitudinal ? Direction::x : Direction::y, drive->amplitude, drive->duration};
+  EdgeDrive edge{discs_of_edge(scene, a, ddem::Edge::left),
+                 drive->wave == Wave::longitudinal ? Direction::x : Direction::y, drive->amplitude, drive->duration};
+  check_held_drive(scene, a, edge);
+  return edge;
 }
 
 std::optional<Wave> wave_of(const Scene& scene) {
@@ -111,21 +85,28 @@ double source_centre(const Scene& scene) {
   return pulse != nullptr && pulse->shape == PulseShape::gaussian ? pulse->center : 0.0;
 }
 
+std::optional<double> source_reach(const Scene& scene) {
+  const auto* pulse = std::get_if<InitialPulse>(&scene.load);
+  if (pulse == nullptr || pulse->shape == PulseShape::column) return std::nullopt;
+  return pulse->shape == PulseShape::gaussian ? kGaussianReach * pulse->width : pulse->width;
+}
+
 double source_amplitude(const Scene& scene) {
-  if (const auto* pulse = std::get_if<InitialPulse>(&scene.load)) return std::abs(pulse->amplitude);
-  if (const auto* drive = std::get_if<Drive>(&scene.load)) return std::abs(drive->amplitude);
+  if (const auto* pulse = std::get_if<InitialPulse>(&scene.load)) return pulse->amplitude;
+  if (const auto* drive = std::get_if<Drive>(&scene.load)) return drive->amplitude;
   return 0.0;
 }
 
 double pulse_half_width(const Scene& scene, double speed) {
+  if (std::holds_alternative<Drive>(scene.load)) return 0.5 * source_duration(scene);
+  return source_reach(scene).value_or(0.0) / speed;
+}
+
+double pulse_width(const Scene& scene, double speed) {
+  const double half = pulse_half_width(scene, speed);  // at half its height a squared sine is half as wide as at its foot
   const auto* pulse = std::get_if<InitialPulse>(&scene.load);
-  if (pulse == nullptr) return 0.5 * source_duration(scene);
-  switch (pulse->shape) {
-    case PulseShape::column: return 0.0;
-    case PulseShape::cosine: return pulse->width / speed;
-    case PulseShape::gaussian: return 3.0 * pulse->width / speed;
-  }
-  return 0.0;
+  const bool gaussian = pulse != nullptr && pulse->shape == PulseShape::gaussian;
+  return gaussian ? half / kGaussianReach * std::sqrt(8.0 * std::numbers::ln2) : half;
 }
 
 double smallest_arrival(const Scene& scene) {

@@ -9,6 +9,7 @@
 #include "dem/assembly/rattlers.h"
 #include "harness/model/assemble.h"
 #include "harness/model/random_packing.h"
+#include "harness/scene/units.h"
 
 namespace ddem::harness {
 namespace {
@@ -85,8 +86,8 @@ Json packing_json(const PackingReport& r) {
 
 std::string packing_text(const PackingReport& r) {
   const packings::PackingStatistics& s = r.statistics;
-  std::string text = fmt::format("{} discs in {:.6g} m x {:.6g} m, porosity {:.4f}, mean radius {:.6g} m\n", r.discs, r.length,
-                                 r.width, s.porosity, s.mean_radius);
+  std::string text = fmt::format("{} discs in {} x {}, porosity {:.4f}, mean radius {}\n", r.discs, format_quantity(r.length, "m"),
+                                 format_quantity(r.width, "m"), s.porosity, format_quantity(s.mean_radius, "m"));
   if (r.tiling.nx * r.tiling.ny > 1)
     text += fmt::format("{} x {} copies of one periodic cell of {} discs\n", r.tiling.nx, r.tiling.ny, r.tiling.discs);
   text += fmt::format("largest overlap {:.2g} mean radii, {:.1f} % of the discs in hexagonal order\n", s.largest_overlap,

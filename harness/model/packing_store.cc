@@ -18,6 +18,10 @@
 #include <vector>
 
 #include "harness/io/atomic_file.h"
+#include "harness/io/digest.h"
+#include "harness/io/message.h"
+#include "harness/io/regular_file.h"
+#include "harness/io/seal.h"
 
 namespace ddem::harness {
 namespace {
@@ -25,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // First word of a file. It reads differently where bytes have another order.
-constexpr std::uint64_t kFormat = 0x31676e696b636170ULL;  // "packing1"
+constexpr std::uint64_t kFormat = 0x32676e696b636170ULL;  // "packing2"
 
 constexpr std::string_view kFilePrefix = "packing-";
 
@@ -37,13 +41,6 @@ void append(std::string& bytes, std::uint64_t word) {
 
 void append(std::string& bytes, const std::vector<double>& values) {
   for (const double value : values) append(bytes, std::bit_cast<std::uint64_t>(value));
-}
-
-/// FNV-1a.
-std::uint64_t hash(std::string_view bytes) {
-  std::uint64_t h = 0xcbf29ce484222325ULL;
-  for (const char byte : bytes) h = (h ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return h;
 }
 
 /// Everything that decides on the packing's bits.
@@ -73,6 +70,9 @@ Packing made_or_cached(const packings::RandomSpec& spec) {
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // used now: trim_packing_cache()
     return *packing;
   }
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(file, ignored)))
+    message("{}: not the packing that was stored there: it is made anew", file.string());
   Packing packing = packings::random_jammed(spec);
   write_cached_packing(file, spec, packing);
   return packing;
@@ -93,25 +93,25 @@ std::optional<fs::path> packing_cache_folder() {
 }
 
 fs::path packing_cache_file(const fs::path& folder, const packings::RandomSpec& spec) {
-  return folder / fmt::format("{}{:016x}", kFilePrefix, hash(header(spec)));
+  return folder / fmt::format("{}{:.32}", kFilePrefix, sha256(header(spec)));
 }
 
 std::optional<Packing> read_cached_packing(const fs::path& file, const packings::RandomSpec& spec) noexcept {
   try {
     const std::string head = header(spec);
-    const auto discs = static_cast<std::size_t>(spec.discs);
-    const std::size_t column = discs * sizeof(double), expected = head.size() + 3 * column + sizeof(std::uint64_t);
+    const std::size_t column = static_cast<std::size_t>(spec.discs) * sizeof(double);
+    const std::size_t expected = head.size() + 3 * column + kSealBytes;
     std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) != expected || error) return std::nullopt;
-    const std::string bytes = read_file(file);
-    if (bytes.size() != expected || !bytes.starts_with(head)) return std::nullopt;
-    const std::string_view content = std::string_view(bytes).substr(0, expected - sizeof(std::uint64_t));
-    std::string checksum;
-    append(checksum, hash(content));
-    if (std::string_view(bytes).substr(content.size()) != checksum) return std::nullopt;
+    if (fs::file_size(file, error) != expected || error) return std::nullopt;
+    const std::string bytes = read_regular_file(file, Trust::own);
+    const std::string_view content = sealed_content(bytes, file.string());
+    if (bytes.size() != expected || !content.starts_with(head)) return std::nullopt;
     const auto at = [&](std::size_t k) { return doubles(content.substr(head.size() + k * column, column)); };
-    return Packing{at(0), at(1), at(2), {spec.walls.x ? 0.0 : spec.length, spec.walls.y ? 0.0 : spec.width},
-                   spec.length, spec.width};
+    Packing packing{at(0), at(1), at(2), {spec.walls.x ? 0.0 : spec.length, spec.walls.y ? 0.0 : spec.width},
+                    spec.length, spec.width};
+    // Who can write a file can write its digest.
+    if (!packings::can_be_jammed_from(packing, spec)) return std::nullopt;
+    return packing;
   } catch (...) {
     return std::nullopt;  // a cache is a convenience: whatever is wrong with it, the packing is made anew
   }
@@ -149,7 +149,8 @@ void write_cached_packing(const fs::path& file, const packings::RandomSpec& spec
     fs::create_directories(file.parent_path(), ignored);
     std::string bytes = header(spec);
     for (const auto* values : {&packing.x, &packing.y, &packing.radius}) append(bytes, *values);
-    append(bytes, hash(bytes));
+    bytes += seal_of(bytes);
+    if (!fs::is_regular_file(fs::symlink_status(file))) fs::remove(file);  // never through a link, nor into a pipe
     write_file(file, bytes);
     trim_packing_cache(file.parent_path(), kLargestPackingCache);
   } catch (...) {

@@ -19,11 +19,11 @@ Packing stored_random_packing(const packings::RandomSpec& spec);
 /// neither. Files there may be removed at any time.
 std::optional<std::filesystem::path> packing_cache_folder();
 
-/// The file of a spec in the cache's folder: its name is a hash of the spec and of the algorithm (kJammingBits).
+/// The file of a spec in the cache's folder: its name is a digest of the spec and of the algorithm (kJammingBits).
 std::filesystem::path packing_cache_file(const std::filesystem::path& folder, const packings::RandomSpec& spec);
 
-/// The packing in the file, or none: the file does not exist, is damaged (it ends with a checksum), or holds another
-/// spec's packing. Never throws.
+/// The packing in the file, or none: the file does not exist, is not a regular one of this user's, is damaged (it ends with a
+/// digest), or holds what is no jammed packing of the spec. Never throws.
 std::optional<Packing> read_cached_packing(const std::filesystem::path& file, const packings::RandomSpec& spec) noexcept;
 
 /// What the cache may hold, bytes: some ten thousand packings of 682 discs.

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
+#include "dem/core/narrow.h"
 #include "harness/io/errors.h"
 #include "harness/scene/place.h"
 
@@ -16,10 +20,11 @@ constexpr double kFrom = 0.25;                                                  
 constexpr std::array<double, 5> kDistances = {0.40, 0.35, 0.45, 0.375, 0.425};  // of the length, one a pair, repeated
 
 struct Box {
-  double x0, x1, y0, y1;  // outermost edges of the discs
+  double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;  // outermost edges of the network's discs
 
-  explicit Box(const Packing& p) : x0(p.x[0]), x1(p.x[0]), y0(p.y[0]), y1(p.y[0]) {
-    for (std::size_t d = 0; d < p.size(); ++d) {
+  explicit Box(const ddem::Assembly& a) {
+    const Packing& p = a.packing;
+    for (const int d : network_discs(a)) {
       x0 = std::min(x0, p.x[d] - p.radius[d]);
       x1 = std::max(x1, p.x[d] + p.radius[d]);
       y0 = std::min(y0, p.y[d] - p.radius[d]);
@@ -31,12 +36,11 @@ struct Box {
 int nearest_disc(const ddem::Assembly& a, double x, double y) {
   int best = 0;
   double smallest = HUGE_VAL;
-  for (std::size_t d = 0; d < a.size(); ++d) {
-    if (std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) continue;  // it does not move
+  for (const int d : network_discs(a)) {
     const double distance = std::hypot(a.packing.x[d] - x, a.packing.y[d] - y);
     if (distance < smallest) {
       smallest = distance;
-      best = static_cast<int>(d);
+      best = d;
     }
   }
   return best;
@@ -46,13 +50,25 @@ Probe disc_probe(const ddem::Assembly& a, int disc) {
   return {"disc" + std::to_string(disc), a.packing.x[disc], a.packing.y[disc], {{disc}}};
 }
 
+/// A layout in the making, in which a disc has one signal, however often it is asked for.
+struct LayoutInMaking {
+  ProbeLayout layout;
+  std::map<std::string, int> places;
+
+  /// The index of the probe of that name, which is added if it is not there yet.
+  int add(Probe probe) {
+    const auto [place, is_new] = places.try_emplace(probe.name, static_cast<int>(layout.probes.size()));
+    if (is_new) layout.probes.push_back(std::move(probe));
+    return place->second;
+  }
+};
+
 Probe section_probe(const ddem::Assembly& a, double x, int number) {
   const double half_width = 2.0 * mean_radius(a.packing);
   Probe probe{"section" + std::to_string(number), 0.0, 0.0, {}};
-  for (std::size_t d = 0; d < a.size(); ++d) {
+  for (const int d : network_discs(a)) {
     if (std::abs(a.packing.x[d] - x) > half_width) continue;
-    if (std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) continue;
-    probe.receiver.discs.push_back(static_cast<int>(d));
+    probe.receiver.discs.push_back(d);
     probe.x += a.packing.x[d];
     probe.y += a.packing.y[d];
   }
@@ -77,31 +93,33 @@ PairPlace place_of_pair(int k, const ProbePairs& spec, double length, double wid
 }
 
 ProbeLayout pairs_layout(const ProbePairs& spec, const ddem::Assembly& a) {
-  const Box box(a.packing);
-  ProbeLayout layout;
-  for (int k = 0; k < static_cast<int>(spec.pairs); ++k) {
+  const Box box(a);
+  LayoutInMaking making;
+  const ProbeLayout& layout = making.layout;
+  for (int k = 0; k < narrow<int>(spec.pairs, "probes.pairs"); ++k) {
     const PairPlace place = place_of_pair(k, spec, box.x1 - box.x0, box.y1 - box.y0);
+    int from = 0, to = 0;
     if (spec.section) {
-      layout.probes.push_back(section_probe(a, box.x0 + place.x_from, 2 * k));
-      layout.probes.push_back(section_probe(a, box.x0 + place.x_to, 2 * k + 1));
+      from = making.add(section_probe(a, box.x0 + place.x_from, 2 * k));
+      to = making.add(section_probe(a, box.x0 + place.x_to, 2 * k + 1));
     } else {
-      layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + place.x_from, box.y0 + place.y)));
-      layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + place.x_to, layout.probes.back().y)));
+      from = making.add(disc_probe(a, nearest_disc(a, box.x0 + place.x_from, box.y0 + place.y)));
+      to = making.add(disc_probe(a, nearest_disc(a, box.x0 + place.x_to, layout.probes[from].y)));
     }
-    const double distance = layout.probes[2 * k + 1].x - layout.probes[2 * k].x;
+    const double distance = layout.probes[to].x - layout.probes[from].x;
     if (!(distance > 0.0)) {
       throw InputError("probes.pairs: the assembly is too short for pairs of probes; name discs or points instead");
     }
-    layout.pairs.push_back({2 * k, 2 * k + 1, distance});
+    making.layout.pairs.push_back({from, to, distance});
   }
-  return layout;
+  return making.layout;
 }
 
 }  // namespace
 
 ProbeLayout lay_probes(const Scene& scene, const ddem::Assembly& a) {
   if (const auto* pairs = std::get_if<ProbePairs>(&scene.probes)) return pairs_layout(*pairs, a);
-  ProbeLayout layout;
+  LayoutInMaking making;
   std::vector<std::string> problems;
   if (const auto* named = std::get_if<ProbeDiscs>(&scene.probes)) {
     for (const std::int64_t disc : named->discs) {
@@ -109,27 +127,27 @@ ProbeLayout lay_probes(const Scene& scene, const ddem::Assembly& a) {
         problems.push_back(scene_problem(scene, "probes.discs", fmt::format("disc {} does not exist", disc),
                                          fmt::format("discs are 0 to {}", a.size() - 1)));
       } else {
-        layout.probes.push_back(disc_probe(a, static_cast<int>(disc)));
+        making.add(disc_probe(a, narrow<int>(disc, "probes.discs")));
       }
     }
   } else {
-    const Box box(a.packing);
+    const Box box(a);
     for (const auto& [x, y] : std::get<ProbePoints>(scene.probes).points) {
       if (x < 0.0 || x > box.x1 - box.x0 || y < 0.0 || y > box.y1 - box.y0) {
         problems.push_back(scene_problem(scene, "probes.points", fmt::format("({:g}, {:g}) m lies outside the assembly", x, y),
                                          fmt::format("x and y count from the lower left corner of {:g} m x {:g} m", box.x1 - box.x0, box.y1 - box.y0)));
       } else {
-        layout.probes.push_back(disc_probe(a, nearest_disc(a, box.x0 + x, box.y0 + y)));
+        making.add(disc_probe(a, nearest_disc(a, box.x0 + x, box.y0 + y)));
       }
     }
   }
   if (!problems.empty()) throw InputError(problems);
-  return layout;
+  return making.layout;
 }
 
 ProbeLayout nominal_pairs(const ProbePairs& spec, double length, double width) {
   ProbeLayout layout;
-  for (int k = 0; k < static_cast<int>(spec.pairs); ++k) {
+  for (int k = 0; k < narrow<int>(spec.pairs, "probes.pairs"); ++k) {
     const PairPlace place = place_of_pair(k, spec, length, width);
     layout.probes.push_back({"p" + std::to_string(2 * k), place.x_from, place.y, {}});
     layout.probes.push_back({"p" + std::to_string(2 * k + 1), place.x_to, place.y, {}});

@@ -22,7 +22,7 @@ struct ProbePair {
 };
 
 struct ProbeLayout {
-  std::vector<Probe> probes;
+  std::vector<Probe> probes;  ///< names differ: a disc that pairs share, or that is asked for twice, has one
   std::vector<ProbePair> pairs;
 };
 

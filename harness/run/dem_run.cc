@@ -4,24 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "dem/assembly/rattlers.h"
+#include "dem/core/narrow.h"
 #include "dem/simulation/exact.h"
 #include "dem/spectra/spectra.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
+#include "harness/model/memory_need.h"
 #include "harness/model/packing_report.h"
+#include "harness/run/instability_warnings.h"
+#include "harness/run/load_limits.h"
+#include "harness/run/pulse_dispersion.h"
 #include "harness/run/scene_moduli.h"
+#include "harness/scene/limits.h"
 #include "harness/scene/place.h"
 
 namespace ddem::harness {
 namespace {
 
-constexpr long kMostSteps = 2'000'000'000;
-constexpr double kMostSignalBytes = 4e9;
 constexpr double kMostFilterWork = 1e12;  // multiplications: minutes
 
 double choose_step(const Scene& scene, double critical) {
@@ -36,21 +42,31 @@ double choose_step(const Scene& scene, double critical) {
   return step;
 }
 
-/// Signals are kept in memory: three values a probe and sample.
-void check_signal_size(const Scene& scene, const DemRun& run, double steps) {
-  const double samples = steps / static_cast<double>(scene.time.sample_every);
-  const double bytes = 24.0 * samples * static_cast<double>(std::max<std::size_t>(1, run.layout.probes.size()));
-  if (bytes > kMostSignalBytes) {
-    throw InputError(scene_problem(scene, "time.sample_every",
-                                   fmt::format("{:.3g} samples of {} probes take {:.3g} GB", samples, run.layout.probes.size(), bytes * 1e-9),
-                                   fmt::format("raise it or end earlier: at most {:.3g} GB", kMostSignalBytes * 1e-9)));
+MemoryPart part_of_snapshots(double discs, int snapshots) {
+  return {fmt::format("{} snapshots of {:.3g} discs", snapshots, discs), memory_of_snapshots(discs, snapshots), "--snapshots", "ask for fewer"};
+}
+
+/// What the run keeps until its end, of `in` as for verlet. Exact signals are made of the states of a march.
+void check_memory(const Scene& scene, const DemRun& run, const SimulationInput& in, bool as_text) {
+  const double probes = static_cast<double>(std::max<std::size_t>(1, run.layout.probes.size())), discs = static_cast<double>(run.assembly.size());
+  const double samples = static_cast<double>(in.steps / in.sample_every) + 1.0;
+  const double states = scene.time.integrator == Integrator::exact ? (samples - 1.0) * run.sample_interval / run.time_step : 0.0;
+  if (!(states <= static_cast<double>(kMostSteps))) {
+    throw InputError(scene_problem(scene, "time.integrator", fmt::format("exact signals until then take {:.3g} steps of {:.3g} s", states, run.time_step),
+                                   fmt::format("end earlier: at most {} steps are allowed", kMostSteps)));
   }
+  const MemoryPart parts[] = {
+      memory_of_discs(scene, discs, DiscWork::simulation),
+      {fmt::format("{:.3g} samples of {} probes", samples + states, run.layout.probes.size()), memory_of_samples(samples + states, probes, as_text), "time.sample_every",
+       "raise it, or end earlier"},
+      part_of_snapshots(discs, in.snapshots)};
+  require_memory(scene, parts);
 }
 
 /// Of `step`, which verlet marches with.
 long choose_steps(const Scene& scene, const DemRun& run, double step) {
   double seconds = 0.0;
-  if (const auto* steps = std::get_if<EndSteps>(&scene.time.end)) return static_cast<long>(steps->steps);
+  if (const auto* steps = std::get_if<EndSteps>(&scene.time.end)) return narrow<long>(steps->steps, "time.steps");
   if (const auto* end = std::get_if<EndTime>(&scene.time.end)) {
     seconds = end->seconds;
   } else {
@@ -72,22 +88,23 @@ long choose_steps(const Scene& scene, const DemRun& run, double step) {
         scene, "time.end", fmt::format("{:.6g} s take {:.3g} steps of {:.3g} s", seconds, steps, step),
         fmt::format("at most {} steps are allowed", kMostSteps)));
   }
-  return static_cast<long>(steps);
+  return narrow<long>(steps, "time.end");
 }
 
-WaveContext wave_context(const Scene& scene, const ddem::Assembly& a, Wave wave, std::optional<double> speed) {
-  WaveContext c;
-  const auto [left, right] = std::minmax_element(a.packing.x.begin(), a.packing.x.end());
-  c.left_end = *left;
-  c.length = *right - *left;
-  c.speed = speed.value_or(0.0);
-  if (!speed) c.speed = kinematic_speed(scene, a, wave);
-  c.source_centre = source_centre(scene);
-  c.source_duration = source_duration(scene);
-  c.source_amplitude = source_amplitude(scene);
-  c.smallest_arrival = smallest_arrival(scene);
-  c.pulse_half_width = pulse_half_width(scene, c.speed);
+/// `march_step` is 0 where the signals are exact in time.
+WaveContext context_of(const Scene& scene, const ddem::Assembly& a, Wave wave, std::optional<double> speed, double march_step, double sample_step) {
+  const auto [left, right] = network_ends(a);
+  WaveContext c = wave_context(scene, {left, right - left, a.packing.period.x, edge_band(scene, a)},
+                               speed ? *speed : kinematic_speed(scene, a, wave));
+  c.march_step = march_step;
+  c.sample_step = sample_step;
   return c;
+}
+
+bool is_exact(const Scene& scene, const Solver& solver) { return scene.time.integrator == Integrator::exact && solver.abilities().exact_in_time; }
+
+void enter_stage(const RunOptions& options, const char* stage) {
+  if (options.on_stage) options.on_stage(stage);
 }
 
 /// Bonds that a file lists may be meant to leave pieces apart, or not.
@@ -100,35 +117,8 @@ void warn_of_pieces(const Scene& scene, DemRun& run) {
                                      networks, run.assembly.rattlers.size()));
 }
 
-/// Lagged DDEM beyond its limits runs, with a warning (theory section 3).
-void warn_of_instability(const Scene& scene, DemRun& run) {
-  const DeformationParameters d = deformation_parameters(scene);
-  if (d.scheme != Scheme::lagged) return;
-  if (d.evaluations % 2 == 0 && d.relaxation == 1.0) {
-    run.warnings.push_back(fmt::format("deformation.evaluations = {}: an even number of evaluations without relaxation adds energy "
-                                       "to the waves; use an odd number, or relaxation below 1",
-                                       d.evaluations));
-  }
-  // A share w of the new strain stretches the limit of the fixed point to 2/w - 1.
-  const double radius = fixed_point_radius(run.assembly, contact_parameters(scene), d) / (2.0 / d.relaxation - 1.0);
-  if (radius >= 1.0) {
-    run.warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g} times what it may "
-                                       "be; stiffen the discs (young_modulus) by that factor, or use scheme = \"implicit\"",
-                                       radius));
-  } else if (d.evaluations == 1 && d.relaxation == 1.0 && (d.correction != Correction::normal || scene.contact->stiffness_ratio == 0.0)) {
-    DeformationParameters symmetric = d;
-    if (scene.contact->stiffness_ratio == 0.0) symmetric.correction = Correction::normal_only_stress;
-    const double limit = flip_limit_step(run.assembly, contact_parameters(scene), symmetric, held_dofs(scene, run.assembly));
-    if (run.time_step > limit) {
-      run.warnings.push_back(fmt::format("the lagged scheme is unstable at this step: its limit is {:.4g} s, {:.3g} of the "
-                                         "critical step of DEM; lower step_fraction below that",
-                                         limit, limit / run.critical_time_step));
-    }
-  }
-}
-
 /// `in` as for verlet with the step from one sample to the next; its time step is that of the march.
-SimulationResult run_exact(const Scene& scene, const DemRun& run, const SimulationInput& in) {
+SimulationResult run_exact(const Scene& scene, const DemRun& run, const SimulationInput& in, const Solver& solver) {
   if (in.snapshots > 0) {
     throw InputError(
         scene_problem(scene, "time.integrator",
@@ -144,7 +134,7 @@ SimulationResult run_exact(const Scene& scene, const DemRun& run, const Simulati
         fmt::format("raise time.sample_every or end earlier (at most {:.3g}), or use integrator = \"verlet\"",
                     kMostFilterWork)));
   }
-  SimulationResult result = simulate_exact(run.assembly, in, sampling);
+  SimulationResult result = solver.solve_exact(run.assembly, in, sampling);
   if (const auto& c = result.new_contacts) {
     throw InputError(scene_problem(
         scene, "time.integrator",
@@ -175,55 +165,100 @@ const std::vector<std::vector<double>>& wave_component(const Signals& s, Wave wa
   return wave == Wave::longitudinal ? s.ux : s.uy;
 }
 
-DemRun run_scene(const Scene& scene, const RunOptions& options) { return run_assembly(scene, build_assembly(scene), options); }
+DemRun run_scene(const Scene& scene, const RunOptions& options) {
+  if (const auto discs = planned_discs(scene)) {
+    const MemoryPart parts[] = {memory_of_discs(scene, *discs, DiscWork::simulation), part_of_snapshots(*discs, options.snapshots)};
+    require_memory(scene, parts);
+  }
+  enter_stage(options, "packing");
+  return run_assembly(scene, build_assembly(scene), options);
+}
 
-DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOptions& options) {
-  DemRun run;
+PreparedRun prepare_run(const Scene& scene, ddem::Assembly assembly, const RunOptions& options) {
+  enter_stage(options, "limits");
+  PreparedRun prepared;
+  DemRun& run = prepared.run;
   run.assembly = std::move(assembly);
   run.layout = lay_probes(scene, run.assembly);
   run.wave = wave_of(scene);
 
-  SimulationInput in;
+  SimulationInput& in = prepared.input;
   in.contact = contact_parameters(scene);
   in.deformation = deformation_parameters(scene);
   in.relaxations = options.relaxations;
   in.held = held_dofs(scene, run.assembly);
   in.initial = initial_state(scene, run.assembly);
   in.drive = edge_drive(scene, run.assembly);
-  in.sample_every = static_cast<int>(scene.time.sample_every);
-  in.threads = worthwhile_threads(static_cast<int>(scene.run.threads), run.assembly.size());
+  in.sample_every = narrow<long>(scene.time.sample_every, "time.sample_every");
+  in.threads = worthwhile_threads(narrow<int>(scene.run.threads, "run.threads"), run.assembly.size());
   if (scene.contact.value().new_contacts == NewContacts::automatic) in.new_contacts = ContactWatch::bound;
   in.on_progress = options.on_progress;
-  in.energy_samples = options.energy_samples;
+  const Abilities can = options.solver->abilities();
+  in.energy_samples = can.energies ? options.energy_samples : 0;
   in.snapshots = options.snapshots;
   for (const Probe& p : run.layout.probes) in.receivers.push_back(p.receiver);
 
   run.critical_time_step =
       options.critical_time_step ? *options.critical_time_step : 2.0 / largest_frequency(run.assembly, in.contact, in.held);
   const double step = choose_step(scene, run.critical_time_step);
-  const bool exact = scene.time.integrator == Integrator::exact;
+  const bool exact = is_exact(scene, *options.solver);
   run.time_step = in.time_step = exact ? exact_step(run.critical_time_step, in.drive) : step;
   run.sample_interval = step * static_cast<double>(in.sample_every);
-  if (run.wave) run.context = wave_context(scene, run.assembly, *run.wave, options.expected_speed);
+  if (run.wave) run.context = context_of(scene, run.assembly, *run.wave, options.expected_speed, exact ? 0.0 : step, step);
   in.steps = choose_steps(scene, run, step);
-  check_signal_size(scene, run, static_cast<double>(in.steps));
+  if (in.snapshots > in.steps) {
+    throw InputError(scene_problem(scene, "--snapshots", fmt::format("{} are more than the {} steps of the run", in.snapshots, in.steps), "ask for fewer"));
+  }
+  check_memory(scene, run, in, options.as_text);
+  auto of_load = load_warnings(scene, run.assembly, in.initial, run.critical_time_step, run.context.march_step);
+  prepared.load_is_doubtful = !of_load.empty();
   if (options.warn) {
+    run.warnings = std::move(of_load);
+    if (scene.time.integrator == Integrator::exact && !exact) {
+      run.warnings.push_back(fmt::format("time.integrator: {} is not exact in time; it takes steps of {:.4g} s, {:.3g} of the critical one", options.solver->name(), step,
+                                         step / run.critical_time_step));
+    }
+    if (const auto short_pulse = dispersion_warning(scene, run.assembly, run.context)) run.warnings.push_back(*short_pulse);
     if (const auto crystal = crystal_warning(scene)) run.warnings.push_back(*crystal);
     warn_of_pieces(scene, run);
-    warn_of_instability(scene, run);
+    const MarchedScheme march{run.time_step, run.critical_time_step, in.steps};
+    if (!exact) std::ranges::move(instability_warnings(scene, run.assembly, in.held, march), std::back_inserter(run.warnings));
   }
+  return prepared;
+}
 
-  run.result = exact ? run_exact(scene, run, in) : simulate(run.assembly, in);
-  if (const auto& c = run.result.new_contacts; c && options.warn && !run.result.breakdown && run.time_step > c->critical_time_step) {
+DemRun finish_run(const Scene& scene, PreparedRun prepared, SimulationResult result, bool warn) {
+  DemRun run = std::move(prepared.run);
+  run.result = std::move(result);
+  if (const auto& c = run.result.new_contacts; c && warn && !run.result.breakdown && run.time_step > c->critical_time_step) {
     run.warnings.push_back(fmt::format("new contacts have closed, and were all that are near to close, the critical step would be "
                                        "{:.4g} s; this step is {:.4g} s: lower step_fraction by {:.3g} to be sure",
                                        c->critical_time_step, run.time_step, c->critical_time_step / run.time_step));
   }
-  if (!run.result.breakdown && run.wave && !run.layout.pairs.empty()) {
+  if (run.result.breakdown) return run;
+  const auto of_end = run.result.final_state.ux.empty() ? std::nullopt : end_warning(scene, run.assembly, run.result.final_state);
+  if (of_end && !prepared.load_is_doubtful && warn) run.warnings.push_back(*of_end);
+  run.context.obstacle = growth_of(run.result.energy, run.context.source_duration);
+  if (run.context.obstacle && warn) run.warnings.push_back(run.context.obstacle->reason);
+  if (run.wave && !run.layout.pairs.empty()) {
     run.measurement = measure_wave(wave_component(run.result.signals, *run.wave), run.sample_interval,
                                    run.layout, run.context);
   }
   return run;
+}
+
+DemRun run_assembly(const Scene& scene, ddem::Assembly assembly, const RunOptions& options) {
+  PreparedRun prepared = prepare_run(scene, std::move(assembly), options);
+  const auto& [run, in, doubtful] = prepared;
+  if (const std::string reason = refusal(*options.solver, run.assembly, in); !reason.empty()) throw UnsupportedError(scene_problem(scene, "--solver", reason, "use another solver"));
+  enter_stage(options, "simulating");
+  SimulationResult result;
+  try {
+    result = is_exact(scene, *options.solver) ? run_exact(scene, run, in, *options.solver) : options.solver->solve(run.assembly, in);
+  } catch (const std::invalid_argument& e) {  // strains that the scheme does not find; with its own remedy
+    throw InputError(scene_problem(scene, "deformation.solver", e.what(), ""));
+  }
+  return finish_run(scene, std::move(prepared), std::move(result), options.warn);
 }
 
 }  // namespace ddem::harness

@@ -1,12 +1,17 @@
 #include "harness/run/fem_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "dem/core/narrow.h"
 #include "dem/statics/sections.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/model/load.h"
+#include "harness/model/memory_need.h"
+#include "harness/run/load_limits.h"
 #include "harness/scene/place.h"
 
 namespace ddem::harness {
@@ -27,8 +32,8 @@ Rectangle rectangle_of(const Scene& scene, const ddem::Assembly& a) {
   const double band = edge_band(scene, a);
   double bottom = HUGE_VAL;
   for (std::size_t d = 0; d < a.size(); ++d) bottom = std::min(bottom, a.packing.y[d] - a.packing.radius[d]);
-  return {mean_x(a.packing, edge_discs(a.packing, ddem::Edge::left, band)),
-          mean_x(a.packing, edge_discs(a.packing, ddem::Edge::right, band)), bottom, a.packing.width};
+  return {mean_x(a.packing, edge_discs(a, ddem::Edge::left, band)),
+          mean_x(a.packing, edge_discs(a, ddem::Edge::right, band)), bottom, a.packing.width};
 }
 
 /// How far left of its discs' mean place a driven edge acts, m (right of it: negative). Few discs of an irregular end are
@@ -38,16 +43,16 @@ Rectangle rectangle_of(const Scene& scene, const ddem::Assembly& a) {
 double grip_offset(const Scene& scene, const ddem::Assembly& a, double static_speed, Wave wave) {
   const double band = edge_band(scene, a);
   SectionDiscs inner;
-  const auto [lo, hi] = std::minmax_element(a.packing.x.begin(), a.packing.x.end());
-  for (std::size_t d = 0; d < a.size(); ++d) {
-    const double place = (a.packing.x[d] - *lo) / (*hi - *lo);
-    if (place > 0.2 && place < 0.8 && !std::binary_search(a.rattlers.begin(), a.rattlers.end(), static_cast<int>(d))) inner.push_back(static_cast<int>(d));
+  const auto [lo, hi] = network_ends(a);
+  for (const int d : network_discs(a)) {
+    const double place = (a.packing.x[d] - lo) / (hi - lo);
+    if (place > 0.2 && place < 0.8) inner.push_back(d);
   }
-  const std::vector<SectionDiscs> sections = {edge_discs(a.packing, ddem::Edge::left, band), inner};
+  const std::vector<SectionDiscs> sections = {edge_discs(a, ddem::Edge::left, band), inner};
   const std::vector<double> compliance = static_compliances(a, contact_parameters(scene), deformation_parameters(scene), band,
                                                             sections, wave == Wave::shear ? 1 : 0);
   // u' = F/(rho c^2 W h) in the continuum.
-  const double stiffness = bulk_density(a) * static_speed * static_speed * a.packing.width * a.thickness;
+  const double stiffness = moving_density(a) * static_speed * static_speed * a.packing.width * a.thickness;
   return (compliance[1] - compliance[0]) * stiffness - (mean_x(a.packing, inner) - mean_x(a.packing, sections[0]));
 }
 
@@ -91,12 +96,45 @@ double choose_end(const Scene& scene, const FemPlan& plan) {
   return seconds;
 }
 
+/// A step of nodes an even spacing d apart is at most d/c, and shorter where the degree is higher: as many samples or more.
+double least_samples(const FemCase& fem) {
+  double step = 0.0;
+  if (const auto* seconds = std::get_if<StepSeconds>(&fem.step)) {
+    step = seconds->seconds;
+  } else if (fem.mesh.empty()) {
+    const double spacing = std::min(fem.length / fem.elements[0], fem.width / fem.elements[1]) / fem.degree;
+    step = std::get<StepFraction>(fem.step).of_critical * spacing / fem.material.wave_speed(Wave::longitudinal, true);
+  }
+  return step > 0.0 ? 1.0 + std::floor(fem.end / (step * static_cast<double>(fem.sample_every))) : 0.0;
+}
+
+void check_elements(const Scene& scene, const FemCase& fem) {
+  constexpr double most = 5e7;  // ddem-fem counts them in 32 bits
+  const double p = fem.degree, dofs = 2.0 * p * fem.elements[0] * p * fem.elements[1];
+  const std::string what = fmt::format("{} x {} elements of degree {}: {:.3g} degrees of freedom", fem.elements[0], fem.elements[1], fem.degree, dofs);
+  if (fem.mesh.empty() && dofs > most) throw InputError(scene_problem(scene, "continuum.elements", what, fmt::format("at most {:g}", most)));
+  const MemoryPart parts[] = {{what, memory_of_elements(fem), "continuum.elements", "take fewer"},
+                              {fmt::format("{:.3g} samples of {} receivers", least_samples(fem), fem.points.size() + fem.sections.size()), memory_of_signals(fem),
+                               "time.sample_every", "raise it, or end earlier"}};
+  require_memory(scene, parts);
+}
+
 /// What the scene does not write is the discs' default; the continuum is exact in time unless it asks for less.
 Integrator integrator_of(const Scene& scene) {
   return scene.places.contains("time.integrator") ? scene.time.integrator : Integrator::exact;
 }
 
 }  // namespace
+
+double memory_of_elements(const FemCase& fem) {
+  constexpr double bytes = 200.0;  // a degree of freedom, while a case is set up
+  return fem.mesh.empty() ? bytes * 2.0 * fem.degree * fem.elements[0] * fem.degree * fem.elements[1] : 0.0;
+}
+
+double memory_of_signals(const FemCase& fem) {
+  // Two numbers a receiver and sample: in ddem-fem as recorded, by kind, in its file and in that file's image.
+  return 4.0 * 16.0 * least_samples(fem) * static_cast<double>(fem.points.size() + fem.sections.size());
+}
 
 void check_snapshots(const Scene& scene) {
   if (integrator_of(scene) == Integrator::verlet) return;
@@ -110,14 +148,26 @@ bool continuum_stands_alone(const Scene& scene) {
          nominal_rectangle(scene) && !std::holds_alternative<ProbeDiscs>(scene.probes);
 }
 
+bool needs_moduli(const Scene& scene) {
+  const auto& c = scene.continuum;
+  if (!c || !c->young_modulus || !c->poisson_ratio || !c->density) return true;
+  // The place of the driven edge is found in the assembly, with its speed.
+  return !continuum_stands_alone(scene) && scene.assembly.periodic.y && std::holds_alternative<Drive>(scene.load);
+}
+
 FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, const ddem::Assembly* assembly) {
   const auto wave = wave_of(scene);
   if (!wave) throw InputError(scene.path.string() + ": [initial]: a state from files has no continuum counterpart; give a pulse or [drive]");
   std::optional<ddem::Assembly> built;
-  if (moduli && assembly == nullptr) assembly = &built.emplace(build_assembly(scene));
+  if ((moduli || !continuum_stands_alone(scene)) && assembly == nullptr) assembly = &built.emplace(build_assembly(scene));
   Rectangle box = assembly != nullptr ? rectangle_of(scene, *assembly) : nominal_rectangle(scene).value();
   if (assembly != nullptr && scene.assembly.periodic.y && std::holds_alternative<Drive>(scene.load)) {
     box.x0 -= grip_offset(scene, *assembly, moduli->speed_of(*wave, true).value(), *wave);
+  }
+
+  if (const auto* pulse = std::get_if<InitialPulse>(&scene.load)) {
+    require_inside(scene, *pulse, box.x1 - box.x0);
+    check_held_ends(scene, *pulse, box.x1 - box.x0);
   }
 
   FemPlan plan;
@@ -136,18 +186,18 @@ FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, c
   fem.load = scene.load;
   fem.column_spacing = mean_column_spacing(assembly, box);
   if (scene.continuum) {
-    fem.degree = static_cast<int>(scene.continuum->degree);
+    fem.degree = narrow<int>(scene.continuum->degree, "continuum.degree");
     if (scene.continuum->mesh) fem.mesh = std::filesystem::absolute(*scene.continuum->mesh).string();
-    fem.elements = {static_cast<int>(scene.continuum->elements[0]), static_cast<int>(scene.continuum->elements[1])};
+    for (std::size_t k = 0; k < 2; ++k) fem.elements[k] = narrow<int>(scene.continuum->elements[k], "continuum.elements");
   }
   fem.integrator = integrator_of(scene);
   const auto written = [&](const char* key) { return scene.places.contains(key); };
   if (written("time.step") || written("time.step_fraction") || fem.integrator == Integrator::verlet) fem.step = scene.time.step;
-  fem.sample_every = static_cast<int>(scene.time.sample_every);
+  fem.sample_every = scene.time.sample_every;
 
   const double speed = fem.material.wave_speed(*wave, fem.periodic);
-  plan.context = {speed, fem.length, box.x0, source_centre(scene), source_duration(scene), source_amplitude(scene),
-                  smallest_arrival(scene), pulse_half_width(scene, speed)};
+  plan.context = wave_context(scene, {box.x0, fem.length, 0.0, fem.column_spacing}, speed);
+  strain_warning(scene, plan.context, fem.column_spacing);  // refuses what is beyond all measure
   fem.end = choose_end(scene, plan);
   for (const Probe& p : plan.layout.probes) {
     const double x = std::clamp(p.x - box.x0, 0.0, fem.length), y = std::clamp(p.y - box.y0, 0.0, fem.width);
@@ -157,7 +207,31 @@ FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, c
       fem.points.push_back({x, y});
     }
   }
+  check_elements(scene, fem);
   return plan;
+}
+
+namespace {
+
+/// A pulse that the nodes do not carry. Linear elements slow a wave of n nodes by (2 pi/n)^2/24, half a per cent of 18 nodes;
+/// three of a higher degree suffice (0.05 %). Of a mesh from a file the spacing is not known.
+std::optional<FailedMeasurement> coarse_elements(const FemCase& fem, const WaveContext& c) {
+  if (!fem.mesh.empty() || !(c.pulse_width > 0.0)) return std::nullopt;
+  const double nodes = c.pulse_width * c.speed / fem.length * fem.elements[0] * fem.degree;
+  const double needed = fem.degree == 1 ? 9.0 : fem.degree == 2 ? 6.0 : 3.0;
+  if (nodes >= needed) return std::nullopt;
+  return FailedMeasurement{Failure::undersampled, fmt::format("the pulse takes {:.2g} nodes at half its height, and {} are needed; set continuum.elements = [{:.0f}, {}] or more",
+                                                              nodes, needed, std::ceil(fem.elements[0] * needed / nodes), fem.elements[1])};
+}
+
+}  // namespace
+
+WaveMeasurement measure_fem(const FemPlan& plan, const FemResult& result, Wave wave) {
+  WaveContext context = plan.context;
+  context.sample_step = result.sample_interval / static_cast<double>(plan.fem.sample_every);
+  if (plan.fem.integrator == Integrator::verlet) context.march_step = result.time_step;
+  context.obstacle = coarse_elements(plan.fem, context);
+  return measure_wave(receiver_signals(plan, result, wave), result.sample_interval, plan.layout, context);
 }
 
 const std::vector<std::vector<double>>& receiver_signals(const FemPlan& plan, const FemResult& result, Wave wave) {

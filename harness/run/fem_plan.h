@@ -20,11 +20,21 @@ struct FemPlan {
 /// `assembly`: the scene's, where the caller has it and gives the moduli, too.
 FemPlan plan_fem(const Scene& scene, const std::optional<SceneModuli>& moduli, const ddem::Assembly* assembly = nullptr);
 
+/// Bytes that ddem-fem takes at most at a time: of elements whose number is known, and of signals of so many samples as there are
+/// at least.
+double memory_of_elements(const FemCase& fem);
+double memory_of_signals(const FemCase& fem);
+
 /// Throws InputError where the continuum would be exact in time, which snapshots of all nodes (FemCase::snapshots) are not.
 void check_snapshots(const Scene& scene);
 
 /// Whether [continuum] leaves nothing to the discs, so that plan_fem needs no moduli.
 bool continuum_stands_alone(const Scene& scene);
+/// Of one that does not: whether the static moduli of its assembly have to be known.
+bool needs_moduli(const Scene& scene);
+
+/// The speeds of a run's signals; the plan has pairs of probes.
+WaveMeasurement measure_fem(const FemPlan& plan, const FemResult& result, Wave wave);
 
 /// The signals of the receivers that belong to the plan's probes: the component of the wave.
 const std::vector<std::vector<double>>& receiver_signals(const FemPlan& plan, const FemResult& result, Wave wave);

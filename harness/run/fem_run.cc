@@ -157,16 +157,18 @@ std::vector<FemResult> run_fem(std::span<const FemCase> cases, const std::functi
   const auto input = folder.path() / "cases.json", output = folder.path() / "signals.h5";
   write_json(input, document);
   std::size_t done = 0;
-  const SubprocessResult run =
-      run_program(program, {input.string(), "-o", output.string(), "--progress", "--threads", std::to_string(threads)}, [&](std::string_view line) {
+  // What it and MPI make for a while lies in the folder, too, and goes with it however they end.
+  const std::string place = "TMPDIR=" + folder.path().string();
+  const SubprocessResult run = run_program(
+      "/usr/bin/env", {place, program, input.string(), "-o", output.string(), "--progress", "--threads", std::to_string(threads)}, [&](std::string_view line) {
         if (on_case && line.starts_with("done ")) finished(done++);
       });
-  if (run.exit_code == 2) throw InputError(run.standard_error);
+  if (run.exit_code == 2) throw InputError(run.standard_error.substr(0, run.standard_error.find_last_not_of('\n') + 1));
   // 3: a case was unstable; the others are in the file, and it says so itself.
   if (!run.succeeded() && run.exit_code != 3) {
     throw MachineError("ddem-fem failed (" + run.status() + "): " + run.standard_error);
   }
-  const Hdf5File file = Hdf5File::open(output);
+  const Hdf5File file = Hdf5File::open_unsealed(output);
   std::vector<FemResult> solved, results;
   for (const FemCase& c : runs) solved.push_back(read_result(file.root(), c));
   for (std::size_t k = 0; k < cases.size(); ++k) {
@@ -185,8 +187,9 @@ ContinuumMaterial continuum_material(const Scene& scene, const std::optional<Sce
                                               "this wave; give young_modulus, poisson_ratio and density");
     }
     const bool bar = wave == Wave::longitudinal && !scene.assembly.periodic.y;
-    m.density = moduli->bulk_density;
-    m.poisson_ratio = bar && moduli->strip ? moduli->strip->lateral_contraction : isotropic.value().poisson();
+    m.density = moduli->moving_density;
+    // A single row has no lateral contraction: without one, a bar wave is that of the row, without dispersion.
+    m.poisson_ratio = bar && moduli->strip ? moduli->strip->lateral_contraction.value_or(0.0) : isotropic.value().poisson();
     // E such that the wave in question has the static speed of the very assembly.
     const double nu = m.poisson_ratio, modulus = *speed * *speed * m.density;
     m.young_modulus = bar ? modulus : wave == Wave::shear ? 2.0 * (1.0 + nu) * modulus : (1.0 - nu * nu) * modulus;

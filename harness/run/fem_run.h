@@ -3,6 +3,7 @@
 // signals. The harness and the finite-element program meet in files only.
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -38,7 +39,7 @@ struct FemCase {
   Integrator integrator = Integrator::exact;
   std::variant<StepFraction, StepSeconds> step = StepFraction{1.0};
   double end = 0.0;            ///< s
-  int sample_every = 1;
+  std::int64_t sample_every = 1;
   int snapshots = 0;  ///< of all nodes, the last at the end; needs verlet
   std::vector<std::array<double, 2>> points;  ///< m, from the lower left corner
   std::vector<double> sections;               ///< m, from the left end

@@ -1,6 +1,6 @@
 #pragma once
-// From recorded signals to a wave speed: windows free of reflections, a pick at each probe, the speed of each pair.
-// The same for particles and continuum.
+// From recorded signals to a wave speed: windows free of reflections, a pick at each probe, the speed of each pair where
+// measurability.h finds a wave. The same for particles and continuum.
 
 #include <optional>
 #include <vector>
@@ -9,26 +9,9 @@
 #include "harness/measure/picker.h"
 #include "harness/measure/wave_speed.h"
 #include "harness/model/probes.h"
+#include "harness/run/wave_context.h"
 
 namespace ddem::harness {
-
-/// What is known of the wave before it is measured.
-struct WaveContext {
-  double speed = 0.0;            ///< expected, m/s: static, or the kinematic estimate
-  double length = 0.0;           ///< of the strip, m
-  double left_end = 0.0;         ///< x of the source, m
-  double source_centre = 0.0;    ///< where the source's maximum starts, m from the left end
-  double source_duration = 0.0;  ///< of a driven edge, s
-  double source_amplitude = 0.0; ///< m
-  double smallest_arrival = 0.05; ///< of the amplitude: what is smaller is no arrival
-  double pulse_half_width = 0.0; ///< of the pulse that the source sends, s; 0: a released column, which sends none
-};
-
-/// From the first possible arrival to the last, and before the first reflection, at a probe.
-Window causal_window(const WaveContext& context, double x);
-
-/// When the peak has passed x, with a margin of `margin` times the travel time: how long a run must last.
-double time_of_passage(const WaveContext& context, double x, double margin);
 
 struct ProbePick {
   int probe = 0;

@@ -39,6 +39,10 @@ double amplitude(const Signals& s, std::size_t from, std::size_t to) {
 
 }  // namespace
 
+// What grows has a share of 1/sqrt(2 discs) of the noise, and stands out when it has grown beyond all of it, in three quarters of
+// a run.
+double steps_to_see(double growth, std::size_t discs) { return 0.5 * std::log(2.0 * static_cast<double>(discs)) / (0.75 * growth); }
+
 NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work) {
   std::mt19937_64 generator(1);
   const double size = 1e-6 * mean_radius(assembly.packing);
@@ -58,6 +62,7 @@ NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work)
   NoiseRun run;
   run.steps = result.steps_done;
   run.diverged = result.breakdown.has_value();
+  run.detectable = steps_to_see(1.0, n) / static_cast<double>(std::max<long>(1, run.steps));
   const std::size_t samples = result.signals.time.size(), quarter = samples / 4;
   if (quarter < 2) {
     run.growth = run.diverged ? 1.0 : 0.0;
@@ -85,8 +90,7 @@ NoiseFlutter flutter_from_noise(const Assembly& assembly, const ContactParameter
   in.time_step = kFlutterStep * 2.0 / flutter.largest_frequency;
   const NoiseRun noise = run_noise(assembly, in, kFlutterWork);
   flutter.growth_rate = std::log1p(noise.growth) / in.time_step;
-  // What flutters has a share of 1/sqrt(2 discs) of the noise, and stands out when it has grown beyond all of it.
-  const double needed = 0.5 * std::log(2.0 * static_cast<double>(assembly.size())) / (0.75 * static_cast<double>(noise.steps) * in.time_step);
+  const double needed = noise.detectable / in.time_step;
   flutter.detectable = needed / flutter.largest_frequency;
   flutter.found = noise.diverged || flutter.growth_rate > needed;
   return flutter;

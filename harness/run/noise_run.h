@@ -10,7 +10,13 @@ struct NoiseRun {
   bool diverged = false;
   double growth = 0.0;      ///< |z| - 1 of a step, from the amplitudes of the third and the last quarter of the run
   double resolution = 0.0;  ///< growth below this is none
+  double detectable = 0.0;  ///< slower growth does not emerge from the noise in so many steps
+
+  bool grew() const { return diverged || growth > resolution; }
 };
+
+/// Steps in which growth by `growth` a step emerges from the noise of so many discs.
+double steps_to_see(double growth, std::size_t discs);
 
 inline constexpr double kNoiseWork = 2e8;
 

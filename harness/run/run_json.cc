@@ -3,37 +3,26 @@
 namespace ddem::harness {
 namespace {
 
-Json speed_or_status(const WaveSpeed& w) {
-  return w.speed.ok() ? Json(w.speed.value().mean) : Json{{"status", w.speed.error().reason}};
+/// A number or null, and beside it "ok" or why there is none.
+void add_value(Json& j, const std::string& key, const Outcome<double>& value) {
+  j[key] = value.ok() ? Json(value.value()) : Json();
+  j[key + "_status"] = value.ok() ? "ok" : value.error().reason;
 }
 
-/// wave_speed, wave_speed_stddev and pairs; what was not measured is a status with the reason.
-void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const ProbeLayout& layout, const std::string& why_not) {
-  if (!m) {
-    j["wave_speed"] = {{"status", why_not}};
-    j["pairs"] = Json::array();
-    return;
-  }
-  j["wave_speed"] = speed_or_status(m->speed);
-  if (m->speed.speed.ok()) {
-    const auto stddev = m->speed.speed.value().stddev;
-    j["wave_speed_stddev"] = stddev ? Json(*stddev) : Json{{"status", "a single pair has no standard deviation"}};
-  }
-  j["wave_speed_by_centroid"] = m->by_centroid ? speed_or_status(*m->by_centroid) : Json{{"status", "a released column sends no pulse of known width"}};
-  j["wave_speed_by_correlation"] = speed_or_status(m->by_correlation);
-  j["good_pairs"] = m->speed.good_pairs;
-  j["pairs"] = Json::array();
-  for (const PairSpeed& p : m->speed.pairs) {
-    Json pair{{"from", layout.probes[p.from].name}, {"to", layout.probes[p.to].name}, {"distance", p.distance}};
-    if (p.speed.ok()) {
-      pair["delay"] = p.delay.value();
-      pair["speed"] = p.speed.value();
-      pair["status"] = "ok";
-    } else {
-      pair["status"] = p.speed.error().reason;
-    }
-    j["pairs"].push_back(pair);
-  }
+Outcome<double> mean_of(const WaveSpeed& w) { return w.speed.ok() ? Outcome<double>(w.speed.value().mean) : w.speed.error(); }
+
+Outcome<double> stddev_of(const WaveSpeed& w) {
+  if (!w.speed.ok()) return w.speed.error();
+  if (const auto& stddev = w.speed.value().stddev) return *stddev;
+  return FailedMeasurement{Failure::too_few_picks, "a single pair has no standard deviation"};
+}
+
+Json pair_json(const PairSpeed& p, const ProbeLayout& layout) {
+  Json pair{{"from", layout.probes[p.from].name}, {"to", layout.probes[p.to].name}, {"distance", p.distance}};
+  pair["delay"] = p.speed.ok() ? Json(p.delay.value()) : Json();
+  pair["speed"] = p.speed.ok() ? Json(p.speed.value()) : Json();
+  pair["status"] = p.speed.ok() ? "ok" : p.speed.error().reason;
+  return pair;
 }
 
 const char* status_of(Breakdown::Cause cause) {
@@ -48,6 +37,30 @@ const char* status_of(Breakdown::Cause cause) {
 
 }  // namespace
 
+void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const ProbeLayout& layout, const std::string& why_not) {
+  const FailedMeasurement none{Failure::empty_window, why_not}, no_pulse{Failure::no_reference, "a released column sends no pulse of known width"};
+  add_value(j, "wave_speed", m ? mean_of(m->speed) : none);
+  add_value(j, "wave_speed_stddev", m ? stddev_of(m->speed) : none);
+  add_value(j, "wave_speed_by_centroid", !m ? none : m->by_centroid ? mean_of(*m->by_centroid) : no_pulse);
+  add_value(j, "wave_speed_by_correlation", m ? mean_of(m->by_correlation) : none);
+  j["good_pairs"] = m ? m->speed.good_pairs : 0;
+  j["pairs"] = Json::array();
+  if (!m) return;
+  for (const PairSpeed& p : m->speed.pairs) j["pairs"].push_back(pair_json(p, layout));
+}
+
+Json picks_json(const WaveMeasurement& m, const ProbeLayout& layout) {
+  Json list = Json::array();
+  for (const ProbePick& p : m.picks) {
+    Json j{{"probe", layout.probes[p.probe].name}, {"status", p.pick.ok() ? "ok" : p.pick.error().reason}};
+    j["time"] = p.pick.ok() ? Json(p.pick.value().time) : Json();
+    j["amplitude"] = p.pick.ok() ? Json(p.pick.value().amplitude) : Json();
+    j["width"] = p.pick.ok() ? Json(p.pick.value().width) : Json();
+    list.push_back(std::move(j));
+  }
+  return list;
+}
+
 Json run_json(const DemRun& run) {
   const SimulationResult& r = run.result;
   Json j{{"status", "ok"}};
@@ -61,6 +74,7 @@ Json run_json(const DemRun& run) {
   j["bonds"] = run.assembly.bonds.size();
   j["rattlers"] = run.assembly.rattlers.size();
   j["bulk_density"] = bulk_density(run.assembly);
+  j["moving_density"] = moving_density(run.assembly);
   j["critical_time_step"] = run.critical_time_step;
   j["time_step"] = run.time_step;
   j["steps"] = r.steps_done;
@@ -88,7 +102,8 @@ Json moduli_json(const SceneModuli& m) {
          {"rattlers", m.rattlers},
          {"coordination", m.coordination},
          {"solid_fraction", m.solid_fraction},
-         {"bulk_density", m.bulk_density}};
+         {"bulk_density", m.bulk_density},
+         {"moving_density", m.moving_density}};
   if (m.stiffness) {
     Json rows = Json::array();
     for (int i = 0; i < 3; ++i) rows.push_back({(*m.stiffness)(i, 0), (*m.stiffness)(i, 1), (*m.stiffness)(i, 2)});
@@ -103,14 +118,22 @@ Json moduli_json(const SceneModuli& m) {
     j["shear_velocity"] = s.s;
     j["p_velocity"] = s.p;
   } else {
-    j["stiffness"] = {{"status", m.method}};
+    for (const char* key : {"stiffness", "young_modulus", "shear_modulus", "bulk_modulus", "poisson_ratio", "shear_velocity", "p_velocity"}) {
+      j[key] = nullptr;
+      j[std::string(key) + "_status"] = m.method;
+    }
     j["bar_velocity"] = m.strip->bar_velocity();
   }
   if (m.strip) {
     j["strip"] = {{"axial_stiffness", m.strip->axial_stiffness},
                   {"mass_per_length", m.strip->mass_per_length},
-                  {"lateral_contraction", m.strip->lateral_contraction},
                   {"bar_velocity", m.strip->bar_velocity()}};
+    if (const auto& contraction = m.strip->lateral_contraction) {
+      j["strip"]["lateral_contraction"] = *contraction;
+    } else {
+      j["strip"]["lateral_contraction"] = nullptr;
+      j["strip"]["lateral_contraction_status"] = "a single row of discs does not contract sideways";
+    }
   }
   return j;
 }

@@ -9,6 +9,11 @@
 
 namespace ddem::harness {
 
+/// Adds speeds and pairs, the same keys whether there was a wave or not; `why_not`: why there is no measurement at all.
+void add_measurement(Json& j, const std::optional<WaveMeasurement>& measurement, const ProbeLayout& layout, const std::string& why_not);
+/// The picks by peak, with reasons.
+Json picks_json(const WaveMeasurement& measurement, const ProbeLayout& layout);
+
 Json run_json(const DemRun& run);
 Json moduli_json(const SceneModuli& moduli);
 Json stability_json(const SceneStability& stability);

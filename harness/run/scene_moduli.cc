@@ -1,11 +1,13 @@
 #include "harness/run/scene_moduli.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "dem/assembly/bond_stiffness.h"
 #include "dem/assembly/contacts.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
+#include "harness/model/memory_need.h"
 #include "harness/references/effective_moduli.h"
 
 namespace ddem::harness {
@@ -42,6 +44,7 @@ SceneModuli description_of(const ddem::Assembly& a) {
   m.coordination = coordination(a.bonds, a.size());
   m.solid_fraction = solid_fraction(a);
   m.bulk_density = bulk_density(a);
+  m.moving_density = moving_density(a);
   return m;
 }
 
@@ -59,13 +62,17 @@ SceneModuli moduli_between_periodic_edges(const GrippedStrip& strip) {
   return m;
 }
 
-/// `closed`: null where the packing does not close.
-SceneModuli moduli_between_free_edges(const GrippedStrip& strip, const GrippedStrip* closed) {
+/// `closed`: null where the packing does not close, `missing` why.
+SceneModuli moduli_between_free_edges(const GrippedStrip& strip, const GrippedStrip* closed, const std::string& missing) {
   SceneModuli m = description_of(strip.assembly());
-  if (closed != nullptr) m.stiffness = closed->stiffness();
   m.strip = strip.tension();
-  m.method = m.stiffness ? "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension"
-                         : "the free strip under tension only: this packing from a file does not close in y (give its width as the period)";
+  if (closed == nullptr) {
+    m.method = "the free strip under tension only: " + missing;
+    return m;
+  }
+  m.stiffness = closed->stiffness();
+  m.moving_density = moving_density(closed->assembly());
+  m.method = "the packing closed in y (between flat walls: its periodic counterpart of the same seed), homogenised; bar speed from the free strip under tension";
   return m;
 }
 
@@ -78,7 +85,7 @@ std::optional<IsotropicModuli> SceneModuli::isotropic() const {
 
 std::optional<DirectionalSpeeds> SceneModuli::speeds() const {
   if (!stiffness) return std::nullopt;
-  DirectionalSpeeds s = directional_speeds(*stiffness, bulk_density);
+  DirectionalSpeeds s = directional_speeds(*stiffness, moving_density);
   if (strip) s.bar = strip->bar_velocity();
   return s;
 }
@@ -95,17 +102,30 @@ GrippedStrip gripped(const Scene& scene, const ddem::Assembly& a) {
   return {a, contact_parameters(scene), deformation_parameters(scene), edge_band(scene, a)};
 }
 
-SceneModuli scene_moduli(const GrippedStrip& strip, const GrippedStrip& closed) { return moduli_between_free_edges(strip, &closed); }
+SceneModuli scene_moduli(const GrippedStrip& strip, const GrippedStrip& closed) { return moduli_between_free_edges(strip, &closed, ""); }
+
+namespace {
+
+/// Stiffnesses that are too far apart leave round-off alone.
+SceneModuli finite(SceneModuli m) {
+  const auto speeds = m.speeds();  // of a stiffness below 0 there are none
+  const bool good = (!speeds || std::isfinite(speeds->p + speeds->s)) && (!m.strip || std::isfinite(m.strip->bar_velocity()));
+  if (!good) throw std::runtime_error("no stiffness is left, or stiffnesses are too far apart for the numbers of a computer");
+  return m;
+}
+
+}  // namespace
 
 SceneModuli scene_moduli(const Scene& scene) {
+  require_memory_of_discs(scene, DiscWork::statics);
   const ddem::Assembly a = build_network(scene);
-  const auto closed = scene.assembly.periodic.y ? std::nullopt : build_laterally_closed(scene);
+  const LaterallyClosed closed = scene.assembly.periodic.y ? LaterallyClosed{} : build_laterally_closed(scene);
   try {
-    if (scene.assembly.periodic.x && scene.assembly.periodic.y) return moduli_of_cell(scene, a);
+    if (scene.assembly.periodic.x && scene.assembly.periodic.y) return finite(moduli_of_cell(scene, a));
     const GrippedStrip strip = gripped(scene, a);
-    if (scene.assembly.periodic.y) return moduli_between_periodic_edges(strip);
-    const auto closed_strip = closed ? std::optional(gripped(scene, *closed)) : std::nullopt;
-    return moduli_between_free_edges(strip, closed_strip ? &*closed_strip : nullptr);
+    if (scene.assembly.periodic.y) return finite(moduli_between_periodic_edges(strip));
+    const auto closed_strip = closed.assembly ? std::optional(gripped(scene, *closed.assembly)) : std::nullopt;
+    return finite(moduli_between_free_edges(strip, closed_strip ? &*closed_strip : nullptr, closed.missing));
   } catch (const std::invalid_argument& e) {
     throw InputError(scene.path.string() + ": [assembly]: " + e.what());
   } catch (const std::runtime_error& e) {
@@ -123,14 +143,16 @@ references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembl
                         ? references::plane_strain_constants(deformation.young_modulus, deformation.poisson_ratio)
                         : references::PlaneConstants{deformation.young_modulus, deformation.poisson_ratio};
   }
-  references::Fabric fabric = references::random_fabric(a.bonds.length, a.packing.radius, a.area());
+  std::vector<double> radii;
+  for (const int d : network_discs(a)) radii.push_back(a.packing.radius[d]);
+  references::Fabric fabric = references::random_fabric(a.bonds.length, radii, a.area());
   if (deformation.volume == ParticleVolume::cell) fabric.solid_fraction = 1.0;  // the cells fill the assembly
   return references::effective_moduli(contact_model(deformation), fabric, {mean_normal_stiffness(a, contact), contact.stiffness_ratio},
                                       disc);
 }
 
 double kinematic_speed(const Scene& scene, const ddem::Assembly& a, Wave wave) {
-  const auto speeds = references::bulk_wave_speeds(kinematic_moduli(scene, a), bulk_density(a));
+  const auto speeds = references::bulk_wave_speeds(kinematic_moduli(scene, a), moving_density(a));
   if (wave == Wave::shear) return speeds.shear;
   return scene.assembly.periodic.y ? speeds.p : speeds.bar;
 }

@@ -13,9 +13,10 @@ namespace ddem::harness {
 struct SceneModuli {
   int discs = 0, bonds = 0, rattlers = 0;
   double coordination = 0.0;    ///< 2 bonds / discs
-  double solid_fraction = 0.0, bulk_density = 0.0;
-  std::string method;           ///< how the stiffness was computed, in words
-  /// Homogenised; empty for a free packing from a file, which cannot be closed above and below.
+  double solid_fraction = 0.0, bulk_density = 0.0;  ///< of all discs
+  double moving_density = 0.0;  ///< of the network whose stiffness it is: what waves move
+  std::string method;           ///< how the stiffness was computed, or why there is none, in words
+  /// Homogenised; empty for a free strip that cannot be closed above and below.
   std::optional<PlaneStiffness> stiffness;
   std::optional<StripTension> strip;  ///< where top and bottom are free: the very strip, pulled
 

@@ -23,6 +23,15 @@ const char* name(Correction correction) {
   return "";
 }
 
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stable: return "stable";
+    case Verdict::unstable: return "unstable";
+    case Verdict::undecided: return "undecided";
+  }
+  return "";
+}
+
 const char* name(StepBound bound) {
   switch (bound) {
     case StepBound::oscillation: return "oscillation";
@@ -47,8 +56,21 @@ void add_softness(Json& j, const SceneStability& s) {
   j["fixed_point_radius_limit"] = lagged ? Json(s.radius_limit) : status(free);
   j["softness"] = active ? Json(s.softness) : status(rigid);
   j["largest_stable_softness"] = optional_number(s.softness_limit, free);
-  j["largest_stable_softness_at_step"] =
-      optional_number(s.softness_limit_at_step, lagged ? "this step is stable at no softness" : free);
+  const auto& limit = s.softness_limit_at_step;
+  const std::string none = lagged ? "this step is stable at no softness" : free;
+  j["largest_stable_softness_at_step"] = limit ? Json(limit->at_least) : status(none);
+  j["largest_stable_softness_at_step_at_most"] = limit ? Json(limit->at_most) : status(none);
+}
+
+void add_verdict(Json& j, const SceneStability& s) {
+  const Verdict verdict = s.verdict();
+  const bool undecided = verdict == Verdict::undecided;
+  j["stability"] = name(verdict);
+  j["stable_at_step_fraction"] = undecided ? Json() : Json(verdict == Verdict::stable);
+  j["instabilities"] = s.instabilities();
+  j["growth_per_step"] = optional_number(s.step_growth, s.critical_step_decides() ? "the critical step decides" : "too many discs for the step's eigenvalues");
+  j["steps_needed"] = undecided ? Json(s.steps_needed()) : status("the verdict needs no run");
+  j["slowest_growth_per_step"] = undecided ? Json(s.slowest_growth) : status("the verdict needs no run");
 }
 
 void add_growth_without_energy(Json& j, const SceneStability& s) {
@@ -73,11 +95,12 @@ void add_growth_without_energy(Json& j, const SceneStability& s) {
       j["flutter"]["status"] = "none found";
     }
   }
-  j["noise_run"] = status(s.has_energy() ? energy : "not run");
+  j["noise_run"] = status(s.has_energy() ? energy : "not run: the step's eigenvalues decide");
   if (s.noise) {
     j["noise_run"] = {{"status", s.noise->diverged ? "diverged" : "ok"},
                       {"steps", s.noise->steps},
                       {"growth_per_step", s.noise->growth},
+                      {"detectable_per_step", s.noise->detectable},
                       {"resolution", s.noise->resolution}};
   }
 }
@@ -85,8 +108,8 @@ void add_growth_without_energy(Json& j, const SceneStability& s) {
 }  // namespace
 
 Json stability_json(const SceneStability& s) {
-  const std::vector<std::string> instabilities = s.instabilities();
-  const std::string no_step = "no step is stable";
+  const std::string no_step = s.critical.bound == StepBound::feeding ? "no step is safe for sure: an even number of evaluations overshoots in some strains"
+                                                                     : "no step is stable";
   Json j{{"status", "ok"},
          {"discs", s.discs},
          {"bonds", s.bonds},
@@ -99,8 +122,7 @@ Json stability_json(const SceneStability& s) {
          {"dem_critical_time_step", s.dem_critical_step}};
   j["largest_stable_step_fraction"] =
       s.critical.step ? Json(*s.critical.step / s.dem_critical_step) : status(no_step);
-  j["stable_at_step_fraction"] = instabilities.empty();
-  j["instabilities"] = instabilities;
+  add_verdict(j, s);
   add_softness(j, s);
   add_growth_without_energy(j, s);
   if (s.lattice) {

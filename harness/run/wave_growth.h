@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dem/assembly/assembly.h"
 #include "dem/spectra/bloch.h"
 #include "harness/scene/scene.h"
 
@@ -20,6 +21,12 @@ struct WaveGrowth {
   /// |z|^steps of one period, less 1.
   double growth_per_period(double time_step) const;
 };
+
+/// Mean k_n of the bonds, N/m.
+double mean_normal_stiffness(const ddem::Assembly& assembly, const ContactParameters& contact);
+
+/// The infinite lattice of a scene's hexagonal packing.
+HexagonalBloch bloch_of(const Scene& scene, const ddem::Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation);
 
 /// Waves of the infinite lattice, exact; `time_step` in s, wavelengths in m.
 std::vector<WaveGrowth> lattice_waves(const HexagonalBloch& bloch, double time_step, const std::vector<double>& wavelengths);

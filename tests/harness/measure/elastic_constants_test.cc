@@ -20,6 +20,7 @@ const double c_p = std::sqrt((E / (2.0 * (1.0 - nu)) + E / (2.0 * (1.0 + nu))) /
 TEST(ElasticConstants, InvertTheWaveSpeeds) {
   EXPECT_NEAR(young_modulus_from_bar(rho, {c_bar, 0.0}).value, E, 1e-5);
   EXPECT_NEAR(shear_modulus_from_shear(rho, {c_s, 0.0}).value, E / 2.5, 1e-5);
+  EXPECT_NEAR(p_modulus_from_p(rho, {c_p, 0.0}).value, E / 1.5 + E / 2.5, 1e-5);
   EXPECT_NEAR(poisson_ratio_from_bar_and_shear({c_bar, 0.0}, {c_s, 0.0}).value, nu, 1e-14);
   EXPECT_NEAR(poisson_ratio_from_p_and_shear({c_p, 0.0}, {c_s, 0.0}).value, nu, 1e-14);
 }
