@@ -9,7 +9,7 @@
 #include "harness/bench/fem_kernels.h"
 #include "harness/bench/fem_precision.h"
 #include "harness/bench/kernels.h"
-#include "harness/bench/peers/peers.h"
+#include "harness/bench/peers.h"
 #include "harness/io/json.h"
 
 namespace ddem::harness::bench {

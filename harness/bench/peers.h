@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/peers/peer.h"
+#include "harness/solvers/ready.h"
 
 namespace ddem::harness::bench {
 
@@ -31,7 +31,10 @@ struct PeerSize {
 };
 
 struct PeerPlan {
-  Peer peer;
+  std::string name, law;
+  bool shear = false;            ///< with shear stiffness and rotations
+  std::string program, package;  ///< on the PATH, or a path; of Debian
+  std::shared_ptr<const Solver> (*solver)(const ReadyOptions&) = nullptr;
   std::vector<PeerSize> sizes;
 };
 
