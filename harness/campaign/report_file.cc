@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "harness/campaign/write_results.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/digest.h"
 #include "harness/io/errors.h"
+#include "harness/io/json.h"
 #include "reports/figure_data.h"
 #include "reports/report_json.h"
 #include "reports/svg.h"
@@ -20,6 +23,7 @@ namespace ddem::harness {
 namespace {
 
 constexpr std::int64_t kSchemaVersion = 1;
+constexpr std::size_t kMarkedBytes = 4096;  // of a page, that its mark lies within
 
 /// Equal arrays, such as the x of many series, are stored once. NaNs are never equal, and only cost space.
 class ArrayStore {
@@ -51,7 +55,17 @@ reports::Report read_report(const Hdf5Group& stored) {
   const auto get = [&](const reports::Json& name) {
     return arrays.read_doubles(name.get<std::string>()).values;
   };
-  return reports::report_from_json(reports::Json::parse(structure.front()), get);
+  return reports::report_from_json(parse_json(structure.front(), stored.place() + "/structure"), get);
+}
+
+constexpr const char* kRemedy = "`ddem validate -o FOLDER --resume` makes it again from the units in FOLDER";
+
+Hdf5File open_results(const std::filesystem::path& path) {
+  try {
+    return Hdf5File::open(path);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}; {}", e.what(), kRemedy));
+  }
 }
 
 /// plotly, which the build puts beside the program; empty where it could not be fetched: then figures are
@@ -78,10 +92,11 @@ void store_report(Hdf5Group& root, const reports::Report& report) {
 
 reports::Report load_report(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "results.h5";
-  if (!std::filesystem::exists(path)) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
     throw InputError(path.string() + ": no such file; give the folder that `ddem validate -o FOLDER` wrote");
   }
-  const Hdf5File file = Hdf5File::open(path);
+  const Hdf5File file = open_results(path);
   const Hdf5Group root = file.root();
   if (!root.contains("report")) {
     throw InputError(
@@ -98,17 +113,32 @@ reports::Report load_report(const std::filesystem::path& folder) {
   try {
     return read_report(stored);
   } catch (const reports::Json::exception& e) {
-    throw InputError(
-        fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
+    throw InputError(fmt::format("{}/structure: not a report: {}; {}", stored.place(), in_words(e), kRemedy));
   } catch (const std::invalid_argument& e) {
-    throw InputError(
-        fmt::format("{}/structure: damaged: {}; run `ddem validate` again", stored.place(), e.what()));
+    throw InputError(fmt::format("{}/structure: not a report: {}; {}", stored.place(), e.what(), kRemedy));
   }
+}
+
+std::string campaign_mark(const reports::Report& report) {
+  Json marked{{"title", report.title}, {"summary", report.summary}, {"cases", Json::array()}};
+  for (const reports::Verdict& v : report.verdicts) {
+    // Units without a result come and go with what goes wrong.
+    if (!v.case_id.starts_with("unit/")) marked["cases"].push_back(v.case_id);
+  }
+  return sha256(to_text(marked));
+}
+
+std::string drawn_campaign(const std::filesystem::path& folder) {
+  std::string head(kMarkedBytes, '\0');
+  std::ifstream file(folder / "report.html", std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return reports::marked_campaign(head);
 }
 
 std::vector<ReportFile> draw_report(const reports::Report& report) {
   const std::string plotly = plotting_library();
-  std::vector<ReportFile> drawings = {{"report.html", reports::render_html(report, {.plotly = plotly})}};
+  std::vector<ReportFile> drawings = {{"report.html", reports::render_html(report, {.plotly = plotly, .campaign = campaign_mark(report)})}};
   for (const reports::Section& section : report.sections) {
     for (const reports::Figure& figure : section.figures) {
       // What a file says its figures are called must not lead out of the folder.

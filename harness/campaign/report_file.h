@@ -20,6 +20,11 @@ void store_report(Hdf5Group& root, const reports::Report& report);
 /// program wrote it, or it is damaged.
 reports::Report load_report(const std::filesystem::path& folder);
 
+/// Of which campaign a report is, whatever its numbers: a digest of its title, summary and cases.
+std::string campaign_mark(const reports::Report& report);
+/// The mark of FOLDER/report.html; empty where it has none.
+std::string drawn_campaign(const std::filesystem::path& folder);
+
 /// A file of a report, by its path inside the folder.
 struct ReportFile {
   std::filesystem::path name;

@@ -5,15 +5,15 @@
 
 #include "harness/run/fem_run.h"
 #include "harness/scene/scene.h"
+#include "harness/solvers/solver.h"
 
 namespace ddem::harness {
 
 struct CampaignOptions {
   int jobs = 1;
-  bool with_fem = true;
-  bool with_waves = true;    ///< false: statics and Bloch limits of the strip alone, and nothing that needs waves
-  bool with_studies = true;  ///< of schemes, and of the range of Poisson's ratio
-  /// Called from any thread, with the work done since the last call out of campaign_work().
+  const Solver* solver = &builtin_solver();
+  bool with_continuum = true;  ///< studies may run ddem-fem
+  /// Called from any thread, with the units of work done since the last call.
   std::function<void(std::size_t)> on_progress;
   /// Changes what the solvers are given, not the references: a defect that the verdicts must find.
   std::function<void(Scene&)> disturb_scene;

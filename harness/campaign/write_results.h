@@ -1,20 +1,18 @@
 #pragma once
-// The files of a campaign: results.h5, summary.json, junit.xml, report.html, and its figures as SVG, each whole or not
-// at all.
+// The files of a finished campaign.
 
 #include <filesystem>
 #include <vector>
 
-#include "harness/campaign/results.h"
+#include "harness/campaign/planned_campaign.h"
 #include "reports/report.h"
 
 namespace ddem::harness {
 
-/// Makes the folder, so that a campaign that cannot be written is not run. Throws MachineError.
+/// Makes the folder, and checks that files can be written there. Throws InputError, MachineError.
 void prepare_folder(const std::filesystem::path& folder);
 
-/// Writes all of them into `folder`; `more` are sections of the report by others. Throws MachineError.
-void write_results(const std::filesystem::path& folder, const CampaignResults& results,
-                   const std::vector<reports::Verdict>& verdicts, const std::vector<reports::Section>& more = {});
+/// report.html, figures, results.h5, summary.json, junit.xml. Throws MachineError.
+void write_results(const std::filesystem::path& folder, const CampaignResults& results, const reports::Report& report);
 
 }  // namespace ddem::harness

@@ -10,11 +10,12 @@
 
 #include "harness/campaign/read_campaign.h"
 #include "harness/io/errors.h"
+#include "harness/studies/strip/read_strip.h"
 
 namespace ddem::harness {
 namespace {
 
-class CampaignFile : public testing::Test {
+class CampaignFiles : public testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }
 
@@ -26,7 +27,7 @@ class CampaignFile : public testing::Test {
   /// The messages that reading a file of that text throws; none if it is accepted.
   std::vector<std::string> problems(const std::string& text) {
     try {
-      read_strip_campaign(write(text));
+      read_campaign(write(text));
     } catch (const InputError& e) {
       return e.messages();
     }
@@ -47,11 +48,11 @@ bool one_says(const std::vector<std::string>& messages, const std::vector<std::s
   return false;
 }
 
-TEST_F(CampaignFile, TakesUnitsAndKeepsDefaults) {
+TEST_F(CampaignFiles, TakesUnitsAndKeepsDefaults) {
   const StripCampaign s =
-      read_strip_campaign(write("[strip]\ntitle = \"soft\"\nlength = \"33 mm\"\nparticle_modulus = \"20 "
+      strip_in(read_campaign(write("[strip]\ntitle = \"soft\"\nlength = \"33 mm\"\nparticle_modulus = \"20 "
                                 "GPa\"\nseeds = [3, 7]\nmodels = [\"lagged-full\"]\n"
-                                "stiffness_ratios = [0.0, 0.5]\nrows = 12\n"));
+                                "stiffness_ratios = [0.0, 0.5]\nrows = 12\n")));
   EXPECT_EQ(s.title, "soft");
   EXPECT_DOUBLE_EQ(s.length, 33e-3);
   EXPECT_DOUBLE_EQ(s.particle_modulus, 20e9);
@@ -63,7 +64,7 @@ TEST_F(CampaignFile, TakesUnitsAndKeepsDefaults) {
   EXPECT_EQ(s.columns, StripCampaign{}.columns);
 }
 
-TEST_F(CampaignFile, ListsEveryProblemAtOnce) {
+TEST_F(CampaignFiles, ListsEveryProblemAtOnce) {
   const auto found = problems(
       "stray = 1\n"                      // 1
       "[strip]\n"                        // 2
@@ -93,14 +94,14 @@ TEST_F(CampaignFile, ListsEveryProblemAtOnce) {
   EXPECT_EQ(found.size(), 11u);
 }
 
-TEST_F(CampaignFile, OddRowsAreListedWithTheRest) {
+TEST_F(CampaignFiles, OddRowsAreListedWithTheRest) {
   EXPECT_TRUE(one_says(problems("[strip]\nrows = 11\n"), {"strip.rows", "11", "even"}));
   const auto both = problems("[strip]\nrows = 11\ndensty = 1.0\n");
   EXPECT_TRUE(one_says(both, {"strip.rows", "11", "even"}));
   EXPECT_TRUE(one_says(both, {"densty"}));
 }
 
-TEST_F(CampaignFile, EachBadValueIsRefused) {
+TEST_F(CampaignFiles, EachBadValueIsRefused) {
   for (const std::string line : {"seeds = []",
                                  "seeds = [1]",
                                  "seeds = [2, 1]",
@@ -135,14 +136,14 @@ TEST_F(CampaignFile, EachBadValueIsRefused) {
   }
 }
 
-TEST_F(CampaignFile, MissingFileAndRubbish) {
-  EXPECT_THROW(read_strip_campaign("/nowhere/campaign.toml"), InputError);
+TEST_F(CampaignFiles, MissingFileAndRubbish) {
+  EXPECT_THROW(read_campaign("/nowhere/campaign.toml"), InputError);
   try {
-    read_strip_campaign("/nowhere/campaign.toml");
+    read_campaign("/nowhere/campaign.toml");
   } catch (const InputError& e) {
     EXPECT_TRUE(one_says(e.messages(), {"/nowhere/campaign.toml"}));
   }
-  EXPECT_THROW(read_strip_campaign(std::filesystem::temp_directory_path()), InputError);
+  EXPECT_THROW(read_campaign(std::filesystem::temp_directory_path()), InputError);
   EXPECT_FALSE(problems(std::string("\x7f"
                                     "ELF\x00\x01\xff\xfe[strip",
                                     14))

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/campaign/paper_bias.h"
-#include "harness/campaign/pickers.h"
-#include "harness/campaign/waveforms.h"
+#include "harness/studies/paper_protocol/paper_protocol_figures.h"
+#include "harness/studies/waves/pickers.h"
+#include "harness/studies/waves/waveforms.h"
 
 namespace ddem::harness {
 namespace {
@@ -28,7 +28,7 @@ StripCampaign one_ratio() {
 }
 
 TEST(CampaignMeans, AreOverTheSeedsThatGaveOne) {
-  CampaignResults r;
+  StripResults r;
   r.campaign = one_ratio();
   r.waves = {wave(1, Protocol::long_wave, StripWave::shear, 990.0), wave(2, Protocol::long_wave, StripWave::shear, std::nullopt)};
   for (WaveOutcome& w : r.waves) w.section_speed = 1000.0;
@@ -44,7 +44,7 @@ TEST(CampaignMeans, AreOverTheSeedsThatGaveOne) {
 
 /// An isotropic material, nu = 0.25, whose strip is 4 % slow; waves 1 % fast in one packing and not measured in the other.
 TEST(PaperPoisson, AddsUpFromTheMaterialToTheProtocol) {
-  CampaignResults r;
+  StripResults r;
   r.campaign = one_ratio();
   const double k = 5e9, g = 3e9, rho = 1700.0;  // nu = (K - G)/(K + G)
   const double shear = std::sqrt(g / rho), p = std::sqrt((k + g) / rho), bar = std::sqrt(4.0 * k * g / (k + g) / rho);
@@ -52,7 +52,7 @@ TEST(PaperPoisson, AddsUpFromTheMaterialToTheProtocol) {
     StaticOutcome s;
     s.key = {StripPacking::random, seed, Model::dem, 0.5};
     s.speeds = {0.96 * bar, shear, p};
-    s.moduli.bulk_density = rho;
+    s.moduli.bulk_density = s.moduli.moving_density = rho;
     s.moduli.solid_fraction = 0.85;
     s.moduli.stiffness = PlaneStiffness{{k + g, k - g, 0.0}, {k - g, k + g, 0.0}, {0.0, 0.0, g}};
     r.statics.push_back(s);
@@ -76,7 +76,7 @@ TEST(PaperPoisson, AddsUpFromTheMaterialToTheProtocol) {
 
 /// Two recordings that agree until the echo and have nothing in common afterwards.
 TEST(WaveformCorrelation, StopsBeforeTheEcho) {
-  CampaignResults r;
+  StripResults r;
   r.campaign = one_ratio();
   WaveOutcome dem = wave(1, Protocol::long_wave, StripWave::shear, 1000.0);
   FemOutcome fem;

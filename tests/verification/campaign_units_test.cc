@@ -10,10 +10,25 @@
 
 #include "harness/campaign/planned_campaign.h"
 #include "harness/campaign/report_content.h"
-#include "harness/campaign/results_json.h"
-#include "harness/campaign/verdicts.h"
+#include "harness/io/data_json.h"
 #include "harness/nightly/merge.h"
 #include "harness/nightly/unit_file.h"
+#include "harness/studies/calibration/calibration_data.h"
+#include "harness/studies/calibration/design.h"
+#include "harness/studies/discrimination/discrimination_data.h"
+#include "harness/studies/dispersion/dispersion_data.h"
+#include "harness/studies/finite_elements/finite_elements_data.h"
+#include "harness/studies/schemes/range.h"
+#include "harness/studies/schemes/schemes_data.h"
+#include "harness/studies/sizes/sizes_data.h"
+#include "harness/studies/stability/noise_release.h"
+#include "harness/studies/stability/stability_map.h"
+#include "harness/studies/statics/statics_data.h"
+#include "harness/studies/strip/outside_members.h"
+#include "harness/studies/strip/read_strip.h"
+#include "harness/studies/user_cases/user_case.h"
+#include "harness/studies/waves/film.h"
+#include "harness/studies/waves/waves_data.h"
 #include "tests/harness/io/scratch.h"
 
 namespace ddem::harness {
@@ -39,7 +54,7 @@ consteval std::size_t members() {
 
 template <class T>
 void expect_all_members(const char* name) {
-  EXPECT_EQ(json(T{}).size(), members<T>()) << name << ": name every member in results_json.h";
+  EXPECT_EQ(json(T{}).size(), members<T>()) << name << ": name every member beside the type";
 }
 
 TEST(ResultsJson, NamesEveryMember) {
@@ -50,7 +65,7 @@ TEST(ResultsJson, NamesEveryMember) {
   EXPECT_ALL_MEMBERS(Recording);
   EXPECT_ALL_MEMBERS(WaveOutcome);
   EXPECT_ALL_MEMBERS(StripPicture);
-  EXPECT_ALL_MEMBERS(MaterialOutcome);
+  EXPECT_ALL_MEMBERS(WaveSet);
   EXPECT_ALL_MEMBERS(StabilityOutcome);
   EXPECT_ALL_MEMBERS(FemOutcome);
   EXPECT_ALL_MEMBERS(EnergyCurve);
@@ -67,7 +82,6 @@ TEST(ResultsJson, NamesEveryMember) {
   EXPECT_ALL_MEMBERS(DispersionStudy);
   EXPECT_ALL_MEMBERS(SizedWave);
   EXPECT_ALL_MEMBERS(SizedStrip);
-  EXPECT_ALL_MEMBERS(bench::PrecisionPoint);
   EXPECT_ALL_MEMBERS(Discrimination);
   EXPECT_ALL_MEMBERS(Packing);
   EXPECT_ALL_MEMBERS(UserCase);
@@ -77,11 +91,13 @@ TEST(ResultsJson, NamesEveryMember) {
 }
 
 CampaignSpec reduced() {
-  CampaignSpec spec;
-  spec.strip.stiffness_ratios = {0.3};
-  spec.strip.models = {Model::lagged_full, Model::implicit_full};
-  spec.strip.seeds = {1, 2};
-  spec.with_fem = spec.with_studies = false;
+  StripCampaign strip;
+  strip.stiffness_ratios = {0.3};
+  strip.models = {Model::lagged_full, Model::implicit_full};
+  strip.seeds = {1, 2};
+  CampaignSpec spec = campaign_of(strip);
+  spec.studies = {"waves", "paper_protocol", "statics", "stability"};
+  spec.with_continuum = false;
   return spec;
 }
 
@@ -137,41 +153,37 @@ void collect_numbers(const json& value, const json::json_pointer& at, const std:
 }
 
 TEST(CampaignUnits, ANumberThatIsNoneNeverPasses) {
-  CampaignOptions options;
-  options.with_fem = false;
-  options.with_studies = true;
-  const StripCampaign s = reduced().strip;
+  CampaignSpec spec = reduced();
+  spec.studies.clear();
+  const CampaignOptions options{.jobs = 1, .with_continuum = false, .on_progress = {}, .disturb_scene = {}, .disturb_continuum = {}};
   std::set<std::string> kinds_seen;
   std::size_t injected = 0;
-  const auto units = units_of(s, options);
-  for (const CampaignUnit& u : units) {
-    const std::string kind = u.unit.id.substr(0, u.unit.id.find('/'));
-    if (kind == "sizes" || kind == "schemes" || kind == "dispersion" || kind == "discrimination" ||
-        !kinds_seen.insert(kind).second)
-      continue;  // of each kind one; not the longest
-    const json good = u.unit.run();
-    std::map<std::string, json::json_pointer> places;
-    collect_numbers(good, json::json_pointer(), "", places);
-    EXPECT_FALSE(places.empty()) << u.unit.id;
-    for (const auto& [name, place] : places) {
-      for (const double wrong :
-           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        nightly::Unit unit = u.unit;
-        unit.run = [&, p = place] {
-          json bad = good;
-          bad[p] = wrong;
-          return bad;
-        };
-        CampaignResults r = empty_results(s, options);
-        take_outcome(u, nightly::run_unit(unit), r);
-        const auto verdicts = verdicts_of(r);
-        const auto found = std::find_if(verdicts.begin(), verdicts.end(), [&](const reports::Verdict& v) {
-          return v.case_id == "unit/" + u.unit.id;
-        });
-        ASSERT_NE(found, verdicts.end()) << u.unit.id << name;
-        EXPECT_EQ(found->state, reports::State::error);
-        EXPECT_NE(found->reason.find(place.to_string()), std::string::npos) << found->reason;
-        ++injected;
+  const Scratch scratch;
+  const PlannedCampaign campaign(spec, options);
+  nightly::write_plan(scratch / "", campaign.plan());
+  const Selection selection = select(spec, options);
+  for (const PlannedStudy& study : selection.studies) {
+    for (const Piece& piece : study.study->pieces()) {
+      const std::string kind = piece.unit.id.substr(0, piece.unit.id.find('/'));
+      if (kind == "sizes" || kind == "schemes" || kind == "dispersion" || kind == "discrimination" || !kinds_seen.insert(kind).second)
+        continue;  // of each kind one; not the longest
+      const json good = piece.unit.run();
+      std::map<std::string, json::json_pointer> places;
+      collect_numbers(good, json::json_pointer(), "", places);
+      EXPECT_FALSE(places.empty()) << piece.unit.id;
+      for (const auto& [name, place] : places) {
+        for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+          nightly::Unit unit = piece.unit;
+          unit.run = [&, p = place] {
+            json bad = good;
+            bad[p] = wrong;
+            return bad;
+          };
+          const nightly::Outcome outcome = nightly::run_unit(unit);
+          EXPECT_TRUE(outcome.result.is_null()) << unit.id << name;
+          EXPECT_NE(outcome.failure.find(place.to_string()), std::string::npos) << outcome.failure;
+          ++injected;
+        }
       }
     }
   }
@@ -179,10 +191,24 @@ TEST(CampaignUnits, ANumberThatIsNoneNeverPasses) {
   EXPECT_GE(injected, 80u);
 }
 
+/// A unit that failed is an ERROR of its own, and of every case that needs it.
+TEST(CampaignUnits, AFailureIsInEveryCaseThatNeedsIt) {
+  CampaignSpec spec = reduced();
+  spec.only = "static/hexagonal/lagged-full/kt0.30";
+  CampaignOptions options;
+  options.disturb_scene = [](Scene&) { throw std::runtime_error("no such day"); };
+  const PlannedCampaign campaign(spec, options);
+  const auto verdicts = campaign.verdicts(campaign.run({}));
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts.front().state, reports::State::error);
+  EXPECT_NE(verdicts.front().reason.find("no such day"), std::string::npos);
+}
+
 /// Nothing passes of a campaign without results, and its report can be drawn.
 TEST(CampaignUnits, WithoutAnyResultNothingPasses) {
   CampaignSpec spec = reduced();
-  spec.with_fem = spec.with_studies = true;
+  spec.studies.clear();
+  spec.with_continuum = true;
   const PlannedCampaign campaign(spec);
   const Scratch scratch;
   const CampaignResults nothing = campaign.read(scratch / "");

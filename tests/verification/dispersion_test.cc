@@ -53,7 +53,7 @@ TEST_P(Dispersion, RidgesLieOnTheBranches) {
   for (int column = 0; column < kColumns; ++column) in.receivers.push_back({{column}});
   const Signals signals = simulate(a, in).signals;
 
-  const double spacing = std::sqrt(3.0) * kRadius, sampled = in.sample_every * in.time_step;
+  const double spacing = std::sqrt(3.0) * kRadius, sampled = static_cast<double>(in.sample_every) * in.time_step;
   const auto ridge = main_ridge(fk_spectrum(c.longitudinal ? signals.ux : signals.uy, spacing, sampled));
   const HexagonalBloch bloch({kRadius, ddem::test::kDensity, 1.0, 0.5 * std::numbers::pi}, in.contact, in.deformation);
   // From eight waves over the strip to half of the zone boundary. The step's own dispersion is (omega dt)^2/24, below

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/campaign/dispersion_figures.h"
+#include "harness/studies/dispersion/dispersion_figures.h"
 
 namespace ddem::harness {
 namespace {

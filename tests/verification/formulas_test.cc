@@ -1,6 +1,6 @@
 // The report names its references: every formula has a source and a use.
 
-#include "harness/campaign/formulas.h"
+#include "harness/studies/strip/formulas.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "harness/campaign/strip_campaign.h"
+#include "harness/studies/strip/strip_campaign.h"
 #include "harness/io/errors.h"
 #include "harness/model/assemble.h"
 #include "harness/run/dem_run.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/campaign/strip_campaign.h"
+#include "harness/studies/strip/strip_campaign.h"
 #include "harness/model/assemble.h"
 #include "harness/run/bar_reference.h"
 #include "harness/run/dem_run.h"
@@ -81,7 +81,7 @@ Comparison mean_of_seeds(const StripLaw& law, StripWave wave) {
     out.sections.add(errors_against(*run.measurement, static_speed(section_speeds(gripped(scene, run.assembly), run.layout), wave)), 1.0 / kSeeds);
     out.whole.add(errors_against(*run.measurement, whole), 1.0 / kSeeds);
     if (wave != StripWave::bar) continue;
-    const references::FreeStrip strip{whole, s.width, moduli.strip->lateral_contraction};
+    const references::FreeStrip strip{whole, s.width, moduli.strip->lateral_contraction.value()};
     out.s0.add(errors_against(s0_measurement(strip, run.layout, run.context), whole), 1.0 / kSeeds);
   }
   return out;

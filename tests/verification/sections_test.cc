@@ -127,7 +127,7 @@ TEST(Sections, AddUpInSeries) {
   EXPECT_NEAR(s.between(0, 2).s / (d / std::sqrt(mass * yy(0, 2))), 1.0, 0.01);
   // The whole strip's speed is that of another piece: within what 682 discs scatter, here half as many.
   const PlaneStiffness whole = homogenise_strip(a, c.contact(), c.deformation(), kEdgeBand);
-  const DirectionalSpeeds directional = directional_speeds(whole, bulk_density(a));
+  const DirectionalSpeeds directional = directional_speeds(whole, moving_density(a));
   EXPECT_NEAR(s.between(0, 2).p / directional.p, 1.0, 0.03);
   EXPECT_NEAR(s.between(0, 2).s / directional.s, 1.0, 0.03);
 }
@@ -177,7 +177,7 @@ TEST(Sections, OfTheUnsymmetricCorrection) {
   EXPECT_LT(normal.p, 0.9 * dem.p);
   EXPECT_LT(normal.s, 0.9 * dem.s);
   const DirectionalSpeeds whole =
-      directional_speeds(homogenise_strip(a, c.contact(), c.deformation(), kEdgeBand), bulk_density(a));
+      directional_speeds(homogenise_strip(a, c.contact(), c.deformation(), kEdgeBand), moving_density(a));
   EXPECT_NEAR(normal.p / whole.p, 1.0, 0.03);
   EXPECT_NEAR(normal.s / whole.s, 1.0, 0.03);
 }

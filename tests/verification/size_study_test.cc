@@ -1,6 +1,6 @@
 // The strip out of smaller discs: fits on made-up data, the lattice's closed form, and packings.
 
-#include "harness/campaign/size_study.h"
+#include "harness/studies/sizes/sizes_data.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "dem/statics/moduli.h"
-#include "harness/campaign/size_figures.h"
+#include "harness/studies/sizes/sizes_figures.h"
 #include "harness/model/assemble.h"
 #include "harness/run/scene_moduli.h"
 #include "tests/support/assemblies.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/campaign/stability_figures.h"
+#include "harness/studies/stability/stability_figures.h"
 
 namespace ddem::harness {
 namespace {

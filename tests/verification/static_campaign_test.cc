@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "harness/campaign/bloch_limit.h"
+#include "harness/studies/statics/bloch_limit.h"
 #include "harness/campaign/planned_campaign.h"
 #include "harness/campaign/report_content.h"
-#include "harness/campaign/run_campaign.h"
-#include "harness/campaign/static_figures.h"
-#include "harness/campaign/verdicts.h"
+#include "harness/studies/statics/statics_figures.h"
+#include "harness/studies/statics/statics_verdicts.h"
+#include "harness/studies/strip/read_strip.h"
+#include "harness/studies/strip/strip_statics.h"
 #include "harness/references/effective_moduli.h"
 
 namespace ddem::harness {
@@ -32,30 +33,41 @@ StripCampaign reduced() {
   return s;
 }
 
-CampaignOptions statics_alone() {
-  CampaignOptions o;
-  o.with_waves = false;
-  return o;
-}
-
-/// Run once for all tests.
-const CampaignResults& results() {
-  static const CampaignResults r = run_campaign(reduced(), statics_alone());
-  return r;
+/// Solved once for all tests.
+const StripResults& results() {
+  static const StripResults solved = [] {
+    StripResults r;
+    r.campaign = reduced();
+    StripStatics statics(r.campaign, {});
+    for (const StripMaterial& m : materials_of(r.campaign)) r.statics.push_back(statics.of(m));
+    return r;
+  }();
+  return solved;
 }
 
 /// The states of the criteria that failed, "case: metric".
-std::vector<std::string> failed(const CampaignResults& r) {
+std::vector<std::string> failed(const StripResults& r) {
   std::vector<std::string> names;
-  for (const reports::Verdict& v : verdicts_of(r)) {
+  const auto look = [&](const reports::Verdict& v) {
     for (const reports::Criterion& c : v.criteria) {
       if (c.state != reports::State::pass) names.push_back(v.case_id + ": " + c.metric);
     }
+  };
+  for (const StaticOutcome& s : r.statics) {
+    if (s.key.packing != StripPacking::hexagonal) continue;
+    look(static_verdict(s));
+    look(random_static_verdict(r, {StripPacking::random, 0, s.key.model, s.key.stiffness_ratio}));
   }
   return names;
 }
 
-StaticOutcome& lattice(CampaignResults& r, Model model) {
+CampaignSpec statics_alone() {
+  CampaignSpec spec = campaign_of(reduced());
+  spec.studies = {"statics"};
+  return spec;
+}
+
+StaticOutcome& lattice(StripResults& r, Model model) {
   return *std::find_if(r.statics.begin(), r.statics.end(), [&](const StaticOutcome& s) {
     return s.key == StripMaterial{StripPacking::hexagonal, 0, model, 0.3};
   });
@@ -96,17 +108,18 @@ TEST(BlochLimit, IsTheClosedFormAtAnySoftnessAndRatio) {
 }
 
 TEST(StaticCampaign, PassesAndTakesNoStep) {
-  const CampaignResults& r = results();
-  EXPECT_TRUE(r.waves.empty() && r.fem.empty() && r.stability.empty() && !r.schemes && !r.film);
-  EXPECT_EQ(failed(r), std::vector<std::string>{});
-  // The lattice and the random packings of four models at two ratios.
-  EXPECT_EQ(verdicts_of(r).size(), 16u);
-  CampaignSpec spec;
-  spec.strip = reduced();
-  spec.with_waves = false;
-  const PlannedCampaign planned(spec);
-  EXPECT_EQ(planned.plan().units.size(), r.statics.size());
+  EXPECT_EQ(failed(results()), std::vector<std::string>{});
+  const PlannedCampaign planned(statics_alone());
+  EXPECT_EQ(planned.plan().units.size(), results().statics.size());
   for (const auto& unit : planned.plan().units) EXPECT_TRUE(unit.id.starts_with("statics/")) << unit.id;
+  const CampaignResults found = planned.run({});
+  const std::vector<reports::Verdict> verdicts = planned.verdicts(found);
+  // The lattice and the random packings of four models at two ratios.
+  EXPECT_EQ(verdicts.size(), 16u);
+  for (const reports::Verdict& v : verdicts) EXPECT_EQ(v.state, reports::State::pass) << v.case_id;
+  const std::string html = reports::render_html(report_of(found, verdicts));
+  EXPECT_NE(html.find("Wave speeds without time steps"), std::string::npos);
+  EXPECT_EQ(html.find("Not drawn"), std::string::npos);
 }
 
 struct Mutation {
@@ -123,7 +136,7 @@ TEST(StaticCampaign, AMillionthInASpeedFailsItsCriterionAlone) {
       {"P velocity, Bloch limit", [](StaticOutcome& s) { s.bloch->p *= kWrong; }}};
   for (const Mutation& m : mutations) {
     for (const Model model : {Model::dem, Model::lagged_normal, Model::implicit_full}) {
-      CampaignResults r = results();
+      StripResults r = results();
       m.apply(lattice(r, model));
       EXPECT_EQ(failed(r),
                 std::vector<std::string>{"static/hexagonal/" + material_slug(model, 0.3) + ": " + m.metric});
@@ -136,7 +149,7 @@ TEST(StaticCampaign, AMillionthInASpeedFailsItsCriterionAlone) {
 TEST(StaticCampaign, TheKinematicBoundIsSharp) {
   const StripCampaign c = reduced();
   for (const auto& [share, passes] : {std::pair{0.9, true}, {1.1, false}}) {
-    CampaignResults r = results();
+    StripResults r = results();
     for (StaticOutcome& s : r.statics) {
       if (s.key != StripMaterial{StripPacking::random, 1, Model::dem, 0.3}) continue;
       const double area_of_a_disc = s.moduli.solid_fraction * c.length * c.width / s.moduli.discs;
@@ -154,7 +167,7 @@ TEST(StaticCampaign, TheKinematicBoundIsSharp) {
 
 /// A random packing stiffer than the bound, or sections that are not the packing's.
 TEST(StaticCampaign, RandomPackingsThatCannotBeFail) {
-  CampaignResults stiff = results(), elsewhere = results();
+  StripResults stiff = results(), elsewhere = results();
   for (StaticOutcome& s : stiff.statics) {
     if (s.key == StripMaterial{StripPacking::random, 2, Model::dem, 0.3}) *s.moduli.stiffness *= 1.5;
   }
@@ -170,7 +183,7 @@ TEST(StaticCampaign, RandomPackingsThatCannotBeFail) {
 }
 
 TEST(StaticCampaign, ErrorsAreAgainstTheClosedForm) {
-  CampaignResults r = results();
+  StripResults r = results();
   StaticOutcome& s = lattice(r, Model::dem);
   s.speeds.shear = 1.25 * s.kinematic_speeds.shear;
   s.bloch->shear = 0.5 * s.kinematic_speeds.shear;
@@ -197,9 +210,6 @@ TEST(StaticCampaign, TheReportSaysWhatWasNotRun) {
   const reports::Figure figure = speed_error_figure(results());
   ASSERT_EQ(figure.panels.size(), 4u);
   for (const auto& panel : figure.panels) EXPECT_EQ(std::get<reports::Plot>(panel).series.size(), 2u);
-  const std::string html = reports::render_html(report_of(results(), verdicts_of(results())));
-  EXPECT_NE(html.find("Wave speeds without time steps"), std::string::npos);
-  EXPECT_EQ(html.find("Not drawn"), std::string::npos);
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ TEST(StripTensionTest, ContractionAndBarSpeed) {
     const IsotropicModuli exact = test::closed_form(c);
     StripTension t;
     const double young = strip_young(16, c, &t);
-    EXPECT_NEAR(t.lateral_contraction, exact.poisson(), 4e-5) << ratio;
+    EXPECT_NEAR(t.lateral_contraction.value(), exact.poisson(), 4e-5) << ratio;
     const double bulk_density = test::kDensity * std::numbers::pi / (2.0 * std::sqrt(3.0));
     EXPECT_NEAR(t.bar_velocity() / std::sqrt(young / bulk_density), 1.0, 1e-12);
   }
@@ -263,7 +263,8 @@ TEST(StaticSolver, WithEverythingHeldIsAffine) {
   const StaticState state = solver.solve({1e-3, -2e-3, 5e-4});
   EXPECT_EQ(state.fluctuation.norm(), 0.0);
   const Eigen::VectorXd affine = solver.operators().stiffness.cwiseProduct(affine_overlaps(a, solver.operators(), {1e-3, -2e-3, 5e-4}));
-  EXPECT_EQ(state.bond_forces, affine);
+  // Forces are unknowns of their own: right to the last places.
+  EXPECT_LE((state.bond_forces - affine).lpNorm<Eigen::Infinity>(), 4e-16 * affine.lpNorm<Eigen::Infinity>());
 }
 
 TEST(GrippedStrip, RefusesAStripWithoutInnerSections) {

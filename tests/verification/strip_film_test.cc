@@ -1,6 +1,6 @@
 // The filmed strip: what its frames and energies must be, whoever looks at them.
 
-#include "harness/campaign/strip_film.h"
+#include "harness/studies/waves/film.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/campaign/strip_campaign.h"
+#include "harness/studies/strip/strip_campaign.h"
 #include "harness/references/column_release.h"
 #include "harness/references/driven_columns.h"
 #include "harness/run/dem_run.h"

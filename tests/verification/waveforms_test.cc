@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/campaign/strip_campaign.h"
-#include "harness/campaign/waveforms.h"
+#include "harness/studies/strip/strip_campaign.h"
+#include "harness/studies/waves/waveforms.h"
 #include "harness/run/bar_reference.h"
 #include "harness/run/dem_run.h"
 #include "harness/run/fem_plan.h"
