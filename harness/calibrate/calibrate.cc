@@ -8,12 +8,14 @@
 #include <stdexcept>
 
 #include "harness/io/errors.h"
+#include "harness/model/memory_need.h"
 #include "harness/nightly/worker_pool.h"
 
 namespace ddem::harness {
 namespace {
 
 constexpr double kLeastRatio = 0.01;  // of k_t/k_n, for assemblies with mechanisms at 0
+constexpr int kOtherVariants = 6;     // of ranges_of(), at work at a time, each on one packing
 
 const char* letter(Correction c) {
   return c == Correction::normal ? "N" : c == Correction::full ? "F" : "NN";
@@ -185,6 +187,8 @@ std::vector<std::string> notes_on(const Calibration& c, bool deformable) {
 
 Calibration calibrate(const Scene& scene, const Target& target, const CalibrationOptions& options) {
   const auto seed = seed_of(scene);
+  const int packings = seed ? options.seeds : 1;
+  require_memory_of_packings(scene, packings, std::min(options.threads, std::max(packings, kOtherVariants)));
   const StaticModel model(scene, seed_assemblies(scene, seed.value_or(0), options.seeds, options.threads),
                           options.threads);
   const auto start = std::chrono::steady_clock::now();

@@ -138,14 +138,15 @@ std::string parameters_text(const Scene& scene, const FoundParameters& f) {
     return f.solved_for == p && f.solved_stddev > 0.0 ? fmt::format(" +- {:.2g}", f.solved_stddev)
                                                       : std::string();
   };
+  const char* const unit = by_modulus(scene) ? "Pa" : "N/m";
   std::string t =
-      fmt::format("  {} = {:.9g} {}{}\n  k_t/k_n = {:.9g}{}\n", by_modulus(scene) ? "contact modulus" : "k_n",
-                  f.stiffness, by_modulus(scene) ? "Pa" : "N/m",
-                  f.stiffness_stddev > 0.0 ? fmt::format(" +- {:.2g}", f.stiffness_stddev) : "",
+      fmt::format("  {} = {}{}\n  k_t/k_n = {:.9g}{}\n", by_modulus(scene) ? "contact modulus" : "k_n",
+                  format_quantity(f.stiffness, unit, 9),
+                  f.stiffness_stddev > 0.0 ? " +- " + format_quantity(f.stiffness_stddev, unit, 2) : "",
                   f.point.stiffness_ratio, sigma(Parameter::stiffness_ratio));
   if (scene.deformation) {
-    t += fmt::format("  k_n/E_p = {:.6g}{}, E_p = {:.9g} Pa\n  nu_p = {:.6g}{}\n", f.point.softness,
-                     sigma(Parameter::log_softness), f.particle_young_modulus, f.point.particle_poisson_ratio,
+    t += fmt::format("  k_n/E_p = {:.6g}{}, E_p = {}\n  nu_p = {:.6g}{}\n", f.point.softness,
+                     sigma(Parameter::log_softness), format_quantity(f.particle_young_modulus, "Pa", 9), f.point.particle_poisson_ratio,
                      sigma(Parameter::particle_poisson_ratio));
   }
   if (f.particle_density) t += fmt::format("  density of a disc = {:.6g} kg/m3\n", *f.particle_density);
@@ -172,7 +173,8 @@ std::string proof_text(const Calibration& c, const Proof& p) {
                               p.unseen ? fmt::format("seeds {} to {}, which were not fitted",
                                                      p.seeds.front().seed, p.seeds.back().seed)
                                        : "the fitted packing, which has no seeds");
-  t += fmt::format("  static E = {} Pa ({:+.3f} %), nu = {} ({:+.5f})\n", with_interval(young, "{:.6g}"),
+  t += fmt::format("  static E = {}{} ({:+.3f} %), nu = {} ({:+.5f})\n", format_quantity(young.mean, "Pa"),
+                   young.count > 1 ? " +- " + format_quantity(young.half_width, "Pa", 2) : "",
                    100.0 * (young.mean / c.target.young_modulus - 1.0), with_interval(poisson, "{:.5f}"),
                    poisson.mean - c.target.poisson_ratio);
   if (!p.no_waves.empty()) return t + "  no waves: " + p.no_waves + "\n";
@@ -229,8 +231,8 @@ Json calibration_json(const Scene& scene, const Calibration& c, const std::optio
 }
 
 std::string calibration_text(const Scene& scene, const Calibration& c, const std::optional<Proof>& proof) {
-  std::string t = fmt::format("Target: E = {:.8g} Pa, nu = {:.8g} in the plane ({})\n",
-                              c.target.young_modulus, c.target.poisson_ratio, c.target.conversion);
+  std::string t = fmt::format("Target: E = {}, nu = {:.8g} in the plane ({})\n",
+                              format_quantity(c.target.young_modulus, "Pa", 8), c.target.poisson_ratio, c.target.conversion);
   t += ranges_text(c);
   if (!c.feasible) {
     t += fmt::format("INFEASIBLE: nu = {:.6g} is out of reach. Nearest: nu = {:.6g}, with\n",
@@ -240,7 +242,7 @@ std::string calibration_text(const Scene& scene, const Calibration& c, const std
   }
   t += parameters_text(scene, c.found);
   for (const std::string& help : c.what_helps) t += fmt::format("  what would help: {}\n", help);
-  t += fmt::format("They give E = {:.9g} Pa ({:+.2g}), nu = {:.9g} ({:+.2g})", c.young_modulus,
+  t += fmt::format("They give E = {} ({:+.2g}), nu = {:.9g} ({:+.2g})", format_quantity(c.young_modulus, "Pa", 9),
                    c.young_residual(), c.poisson_ratio, c.poisson_residual());
   if (c.seeds.size() > 1) {
     t += fmt::format(", means over seeds {} to {}; one packing scatters by {:.2g} % and {:.2g}",

@@ -92,7 +92,7 @@ ProofSeed prove_seed(const Scene& scene, const SeedAssembly& fitted, bool ends) 
   const IsotropicModuli m = isotropic_part(c);
   out.young_modulus = m.young();
   out.poisson_ratio = m.poisson();
-  const DirectionalSpeeds speeds = directional_speeds(c, bulk_density(fitted.assembly));
+  const DirectionalSpeeds speeds = directional_speeds(c, moving_density(fitted.assembly));
   out.bulk_bar = speeds.bar;
   if (!ends) return out;
   const Scene open = with_ends(with_seed(scene, fitted.seed));

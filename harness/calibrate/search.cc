@@ -125,16 +125,11 @@ class Search {
     SearchResult first = stiffest();
     if (!first.feasible()) return first;
     const bool choice =
-        free_parameters() > 1 && (space_.preference == Preference::margin || !needs_softness_);
+        space_.free_parameters() > 1 && (space_.preference == Preference::margin || !needs_softness_);
     return choice ? with_margin(first) : first;
   }
 
  private:
-  int free_parameters() const {
-    return int(!space_.stiffness_ratio.fixed()) + int(!space_.particle_poisson_ratio.fixed()) +
-           int(!space_.softness.fixed());
-  }
-
   SearchResult along(Parameter p, const ModelPoint& from, std::string choice) const {
     SearchResult r = Line(model_, space_, from, p, target_).nearest();
     r.choice = std::move(choice);

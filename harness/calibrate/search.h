@@ -27,6 +27,9 @@ struct SearchSpace {
   Interval softness{0.01, 10.0};  ///< of lagged discs: at most as far as they are stable
   Interval particle_poisson_ratio{0.0, 0.49};
   Preference preference = Preference::stiffest;
+
+  /// Of deformable discs.
+  int free_parameters() const { return int(!stiffness_ratio.fixed()) + int(!softness.fixed()) + int(!particle_poisson_ratio.fixed()); }
 };
 
 struct SearchResult {

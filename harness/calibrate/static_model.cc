@@ -29,13 +29,11 @@ YoungPoisson rate_of(const IsotropicModuli& m, const IsotropicModuli& rate) {
 ddem::Assembly homogenisable(const Scene& scene) {
   if (scene.assembly.periodic.x) return build_network(scene);
   auto closed = build_laterally_closed(scene);
-  if (!closed) {
-    throw InputError(scene_problem(scene, "assembly.file",
-                                   "a packing that does not close in y has no bulk moduli to calibrate",
-                                   "give its width as the period, and let bond_gap make the bonds"));
+  if (!closed.assembly) {
+    throw InputError(scene_problem(scene, "assembly.packing", "a packing that does not close in y has no bulk moduli to calibrate", closed.missing));
   }
-  require_one_network(*closed);
-  return std::move(*closed);
+  require_one_network(*closed.assembly);
+  return std::move(*closed.assembly);
 }
 
 double mean(const std::vector<double>& values) {

@@ -27,18 +27,25 @@ Part parse_part(std::string_view option, std::string_view whole, std::string_vie
   const auto first = text.find_first_not_of(' ');
   text = first == std::string_view::npos ? std::string_view{}
                                          : text.substr(first, text.find_last_not_of(' ') - first + 1);
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  if (const auto [stop, problem] = std::from_chars(text.data(), end, number);
-      problem == std::errc{} && stop == end)
-    return {number, false};
-  const Quantity q = parse_quantity(text, dimension);
-  if (!q.si) {
-    const std::string problem = dimension == Dimension::none ? "a number is expected" : q.problem;
+  const auto refuse = [&](const std::string& problem) {
     throw InputError(
         fmt::format("{} {}: {}; write {}", option, whole, problem, quantity_examples(dimension)));
+  };
+  Part part;
+  const char* const end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, part.si);
+  if (problem == std::errc::result_out_of_range && stop == end) {
+    const Magnitude m = magnitude_of(dimension);
+    refuse(fmt::format("a {} other than 0 is from {:g} to {:g}{}{} in size", dimension_name(dimension), m.least, m.most,
+                       dimension == Dimension::none ? "" : " ", si_unit(dimension)));
   }
-  return {*q.si, true};
+  if (problem != std::errc{} || stop != end) {
+    const Quantity q = parse_quantity(text, dimension);
+    if (!q.si) refuse(dimension == Dimension::none ? "a number is expected" : q.problem);
+    part = {q.si.value(), true};
+  }
+  if (const std::string size = magnitude_problem(part.si, dimension); !size.empty()) refuse(size);
+  return part;
 }
 
 /// ln of a quantity's model is young ln E + shape(nu, plane) (+ terms in the density); of nu, nu itself.
@@ -189,7 +196,9 @@ void require_possible(const WantedValues& wanted) {
           fmt::format("Poisson's ratio {}: must lie between -1 and {} in {}", v->value, upper,
                       wanted.plane == Plane::stress ? "the plane (plane stress)" : "a solid (plane strain)"));
     } else if (q != TargetKind::poisson && !(v->value > 0.0 && std::isfinite(v->value))) {
-      problems.push_back(fmt::format("{} {}: must be positive and finite", name(q), v->value));
+      const Dimension dimension = dimension_of(q);
+      problems.push_back(fmt::format("{} {} {}: must be positive and finite, at most {:g}; write {}", name(q), v->value, si_unit(dimension),
+                                     magnitude_of(dimension).most, quantity_examples(dimension)));
     }
     if (!(v->stddev >= 0.0) || !std::isfinite(v->stddev)) {
       problems.push_back(

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
 
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
@@ -20,7 +18,6 @@ using reports::State;
 using reports::Verdict;
 
 constexpr double kRoundOff = 1e-9, kShareOfBand = 0.01;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -35,25 +32,6 @@ struct Samples {
   std::string unit;
   bool passed = true;
 };
-
-State worst_of(const Verdict& v) {
-  State worst = State::pass;
-  for (const Criterion& c : v.criteria) worst = std::min(worst, c.state);
-  return worst;
-}
-
-Comparison compared(const Verdict& v, Criterion& c, const Baseline& baseline) {
-  const auto known = baseline.find(metric_key(v.case_id, c.metric));
-  if (known == baseline.end()) {
-    if (c.state == State::pass) c.state = State::no_baseline;
-    return {v.case_id, c.metric, c.unit, c.state, kNone, c.actual, 0.0};
-  }
-  const BaselineEntry& b = known->second;
-  // Written so that a value that is not finite cannot pass.
-  const bool as_good = badness(c, c.actual, b.value) <= badness(c, b.value, b.value) + b.noise;
-  if (c.state == State::pass && !as_good) c.state = State::regressed;
-  return {v.case_id, c.metric, c.unit, c.state, b.value, c.actual, b.noise};
-}
 
 }  // namespace
 
@@ -113,17 +91,20 @@ Baseline baseline_of(const std::vector<std::vector<Verdict>>& nights, std::vecto
 
 std::string baseline_text(const Baseline& baseline) {
   std::string text = "{\n\"schema_version\": 1,\n\"metrics\": {\n";
+  Json metrics = Json::object();
   std::size_t left = baseline.size();
   for (const auto& [key, b] : baseline) {
     const Json line{{"value", b.value}, {"noise", b.noise}, {"unit", b.unit}};
     text += Json(key).dump() + ": " + line.dump() + (--left > 0 ? ",\n" : "\n");
+    metrics[key] = line;
   }
-  return text + "}\n}\n";
+  const Json document = sealed({{"schema_version", 1}, {"metrics", metrics}});
+  return text + "},\n\"digest\": " + document.at("digest").dump() + "\n}\n";
 }
 
 Baseline parse_baseline(const std::string& text, const std::string& place) {
   try {
-    const Json j = parse_json(text, place);
+    const Json j = unsealed(parse_json(text, place), place);
     if (j.at("schema_version") != 1) throw InputError(place + ": not a baseline: schema_version is not 1");
     Baseline baseline;
     std::vector<std::string> problems;
@@ -138,7 +119,7 @@ Baseline parse_baseline(const std::string& text, const std::string& place) {
     if (!problems.empty()) throw InputError(problems);
     return baseline;
   } catch (const Json::exception& e) {
-    throw InputError(place + ": not a baseline, as ddem baseline update writes it: " + e.what());
+    throw InputError(place + ": not a baseline, as ddem baseline update writes it: " + in_words(e));
   }
 }
 
@@ -146,66 +127,14 @@ Baseline read_baseline(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw InputError(path.string() + ": there is no such baseline; ddem baseline update makes one");
-  if (!std::filesystem::is_directory(path, ignored)) return parse_baseline(read_file(path), path.string());
+  const bool is_run = std::filesystem::is_directory(path, ignored);
   std::vector<std::string> left_out;
-  return baseline_of({read_summary(path).verdicts}, left_out);
-}
-
-std::vector<Comparison> compare(std::vector<Verdict>& verdicts, const Baseline& baseline) {
-  std::vector<Comparison> comparisons;
-  std::set<std::string> seen;
-  for (Verdict& v : verdicts) {
-    for (Criterion& c : v.criteria) {
-      comparisons.push_back(compared(v, c, baseline));
-      seen.insert(metric_key(v.case_id, c.metric));
-    }
-    if (v.state == State::pass) v.state = worst_of(v);
+  Baseline baseline = is_run ? baseline_of({read_summary(path).verdicts}, left_out) : parse_baseline(read_file(path), path.string());
+  if (baseline.empty()) {
+    throw InputError(fmt::format("{}: {}: nothing can be compared with it; give a baseline, or the folder of a run, that has metrics",
+                                 path.string(), is_run ? "not one metric of this run passed" : "holds not one metric"));
   }
-  std::map<std::string, Verdict> absent;
-  for (const auto& [key, b] : baseline) {
-    if (seen.contains(key)) continue;
-    const std::size_t bar = key.find(" | ");
-    const std::string id = key.substr(0, bar), metric = bar == std::string::npos ? "" : key.substr(bar + 3);
-    Verdict& v = absent[id];
-    v.case_id = id;
-    v.title = "In the baseline only";
-    v.state = State::skipped;
-    v.reason =
-        fmt::format("{}{}{}", v.reason.empty() ? "in the baseline, and not measured in this run: " : v.reason,
-                    v.reason.empty() ? "" : ", ", metric);
-    comparisons.push_back({id, metric, b.unit, State::skipped, b.value, kNone, b.noise});
-  }
-  for (auto& entry : absent) {
-    Verdict& v = entry.second;
-    // A case that was run has lost a metric: it keeps its own verdict.
-    const auto same = [&](const Verdict& w) { return w.case_id == v.case_id; };
-    if (std::any_of(verdicts.begin(), verdicts.end(), same)) v.case_id += " (baseline)";
-    verdicts.push_back(std::move(v));
-  }
-  return comparisons;
-}
-
-std::string comparison_text(const std::vector<Comparison>& comparisons) {
-  std::string text;
-  std::map<State, int> counts;
-  for (const Comparison& c : comparisons) {
-    ++counts[c.state];
-    const bool changed =
-        std::isfinite(c.before) && std::isfinite(c.now) && std::abs(c.now - c.before) > c.noise;
-    if (c.state == State::pass && !changed) continue;
-    const auto number = [](double x) {
-      return std::isfinite(x) ? fmt::format("{:.9g}", x) : std::string("none");
-    };
-    const char* what = c.state == State::pass ? "changed" : "";
-    text += fmt::format("{:<11} {}: {}: {} -> {}{}{} (noise {:.2g})\n",
-                        what[0] != '\0' ? what : reports::to_string(c.state), c.case_id, c.metric,
-                        number(c.before), number(c.now), c.unit.empty() ? "" : " ", c.unit, c.noise);
-  }
-  text += fmt::format("{} metrics", comparisons.size());
-  for (const State state : reports::kStatesWorstFirst) {
-    if (counts[state] > 0) text += fmt::format(", {} {}", counts[state], reports::to_string(state));
-  }
-  return text + "\n";
+  return baseline;
 }
 
 }  // namespace ddem::harness::nightly

@@ -44,22 +44,8 @@ Baseline baseline_of(const std::vector<std::vector<reports::Verdict>>& nights,
 std::string baseline_text(const Baseline& baseline);
 /// InputError with `place`: not a baseline, numbers that are not finite, noise below 0.
 Baseline parse_baseline(const std::string& text, const std::string& place);
-/// A baseline's file, or the folder of a run, whose own numbers then are the baseline. InputError.
+/// A baseline's file, or the folder of a run, whose own numbers then are the baseline. InputError, also where
+/// it has not one metric.
 Baseline read_baseline(const std::filesystem::path& path);
-
-/// One metric of a comparison.
-struct Comparison {
-  std::string case_id, metric, unit;
-  reports::State state = reports::State::error;
-  double before = 0.0, now = 0.0, noise = 0.0;  ///< NaN: not there
-};
-
-/// Sets the states of what passed: REGRESSED, NO_BASELINE or PASS, of criteria and of their cases. Metrics of
-/// the baseline that the verdicts do not have become a case that was SKIPPED.
-std::vector<Comparison> compare(std::vector<reports::Verdict>& verdicts, const Baseline& baseline);
-
-/// Lines for people: what changed beyond noise, is not in one of both, or did not pass; and how many there
-/// are of each.
-std::string comparison_text(const std::vector<Comparison>& comparisons);
 
 }  // namespace ddem::harness::nightly

@@ -21,21 +21,30 @@ struct WorkCounts {
 bool is_as_much_work(const WorkCounts& a, const WorkCounts& b);
 
 struct Night {
-  std::string time;  ///< UTC, "2026-11-22T02:00:00Z"
+  std::string time;  ///< UTC, "2026-11-22T02:00:00Z", by the clock of the machine that ran it
   Summary summary;
   WorkCounts work;
 };
 
-/// Writes FOLDER/TIME.json (TIME_002.json where that is taken), the folder made if need be, and returns its
-/// path. MachineError.
+/// Writes FOLDER/night-NNNNNN_TIME.json, the folder made if need be, and returns its path. NNNNNN counts the nights in the
+/// order in which they were added, whatever their clocks say; nights that are added at once wait for each other.
+/// MachineError.
 std::filesystem::path append_night(const std::filesystem::path& folder, const Night& night);
 
-/// All nights, the earliest first; other files are left alone. InputError naming every file that is no night,
-/// and where there is none at all.
+/// All nights, the one that was added first first; files that are not called as nights are left alone. Nights of earlier
+/// versions, whose files are called by their time alone, come before all that are counted, by time. InputError naming every
+/// file that is called as one and is none, and where there is none at all.
 std::vector<Night> read_history(const std::filesystem::path& folder);
+
+/// JSON files that read_history() leaves alone.
+std::vector<std::filesystem::path> files_beside_nights(const std::filesystem::path& folder);
 
 /// The nights of a folder that may not be there yet, or hold none. Throws as read_history().
 std::vector<Night> nights_so_far(const std::filesystem::path& folder);
+
+/// Where clocks disagree with the order in which nights were added, or a night is dated after `now` (empty: not asked):
+/// a line each.
+std::vector<std::string> clock_complaints(const std::vector<Night>& nights, const std::string& now = {});
 
 inline constexpr int kWindows[] = {4, 20, 100};
 
@@ -51,8 +60,8 @@ struct Trend {
   reports::State state = reports::State::error;  ///< of the last night
 };
 
-/// Of every metric of the last night; and of "wall time", in seconds, where less is better and 20 % no
-/// change.
+/// Of every metric of the last night, and of those that the night before had and the last one has not, which are MISSING;
+/// and of "wall time", in seconds, where less is better, and 20 % or 0.3 s no change.
 std::vector<Trend> trends_of(const std::vector<Night>& nights);
 
 /// A line a metric that changed beyond its scatter, regressed or did not pass, or of all of them; then how

@@ -291,6 +291,7 @@ reports::Section history_section(const std::vector<Night>& nights) {
                   "nights before "
                   "by more than those nights scatter.",
                   nights.size(), nights.front().time, nights.back().time, urgent.size(), regressed)};
+  for (std::string& complaint : clock_complaints(nights)) section.paragraphs.push_back(std::move(complaint) + ".");
   const Drawn drawn(nights);
   if (!urgent.empty()) section.figures = {metrics_figure(drawn, urgent), margins_figure(drawn)};
   section.figures.push_back(work_figure(nights, drawn.x, wall));

@@ -66,9 +66,9 @@ std::optional<Candidate> choose(std::span<const fs::path> folders, const Plan::E
 
 }  // namespace
 
-MergeReport merge_folders(std::span<const fs::path> from, const fs::path& target) {
+MergeReport merge_folders(std::span<const fs::path> from, const fs::path& target, bool replace) {
   std::vector<fs::path> folders(from.begin(), from.end());
-  if (has_plan(target)) folders.push_back(target);
+  if (has_plan(target) && (!replace || holds_plan(target, read_plan(folders.front())))) folders.push_back(target);
   const Plan plan = common_plan(folders);
   MergeReport report;
   std::vector<std::string> conflicts;

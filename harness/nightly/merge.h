@@ -16,10 +16,10 @@ struct MergeReport {
 };
 
 /// Copies the plan and the results of all folders into `target`, which may be one of them, and adds to what
-/// it has. Of the same unit a result counts more than a failure. Throws InputError, before anything is
+/// it has of the same plan; another plan there gives way where `replace` says so, else it is an error. Of the same unit a result counts more than a failure. Throws InputError, before anything is
 /// written, where the folders are of different plans, and where two results of one identity differ in more
 /// than times: naming all of them.
 MergeReport merge_folders(std::span<const std::filesystem::path> folders,
-                          const std::filesystem::path& target);
+                          const std::filesystem::path& target, bool replace = false);
 
 }  // namespace ddem::harness::nightly

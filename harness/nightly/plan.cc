@@ -9,6 +9,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/digest.h"
 #include "harness/io/errors.h"
+#include "harness/io/regular_file.h"
 #include "harness/nightly/unit_file.h"
 
 namespace ddem::harness::nightly {
@@ -42,13 +43,12 @@ Plan make_plan(std::span<const Unit> units, Json campaign, const std::string& pr
 
 void write_plan(const std::filesystem::path& folder, const Plan& plan) {
   Json j = content_of(plan);
-  j["digest"] = plan.digest();
-  write_json(plan_path(folder), j);
+  if (!plan.source.empty()) j["source"] = plan.source;
+  write_json(plan_path(folder), sealed(j));
   std::error_code ignored;  // a file system without permissions
-  std::filesystem::permissions(plan_path(folder),
-                               std::filesystem::perms::owner_read | std::filesystem::perms::group_read |
-                                   std::filesystem::perms::others_read,
-                               ignored);
+  using std::filesystem::perms;
+  std::filesystem::permissions(plan_path(folder), perms::owner_write | perms::group_write | perms::others_write,
+                               std::filesystem::perm_options::remove, ignored);
 }
 
 bool has_plan(const std::filesystem::path& folder) {
@@ -61,15 +61,24 @@ Plan read_plan(const std::filesystem::path& folder) {
   if (!has_plan(folder))
     throw InputError(
         path + ": there is no such file; is this the folder of a campaign, as ddem validate -o makes it?");
-  const Json j = read_json(path);
+  Json j = parse_json(read_regular_file(path), path);
   try {
-    Plan plan{j.at("program"), j.at("campaign"), {}};
+    if (!j.contains("digest")) throw InputError(path + ": not a plan, as ddem validate -o writes it: its digest is missing");
+    j = unsealed(std::move(j), path);
+    if (j.at("schema_version") != 1) throw InputError(path + ": not a plan of this ddem: its schema_version is not 1");
+    Plan plan{j.at("program"), j.at("campaign"), {}, j.value("source", "")};
     for (const Json& u : j.at("units")) plan.units.push_back({u.at("id"), u.at("identity")});
-    if (plan.digest() != j.at("digest").get<std::string>())
-      throw InputError(path + ": changed after it was written: its digest does not hold");
     return plan;
   } catch (const Json::exception& e) {
-    throw InputError(path + ": not a plan: " + e.what());
+    throw InputError(path + ": not a plan, as ddem validate -o writes it: " + in_words(e));
+  }
+}
+
+bool holds_plan(const std::filesystem::path& folder, const Plan& plan) {
+  try {
+    return has_plan(folder) && difference(read_plan(folder), plan).empty();
+  } catch (const InputError&) {  // damaged
+    return false;
   }
 }
 

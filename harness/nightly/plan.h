@@ -20,6 +20,7 @@ struct Plan {
   std::string program;  ///< version and digest of what runs the units
   Json campaign;        ///< from which the same units are made again
   std::vector<Entry> units;
+  std::string source = {};  ///< the campaign's file, as it was named; empty: none. No part of digest()
 
   std::string digest() const;
 };
@@ -32,6 +33,8 @@ void write_plan(const std::filesystem::path& folder, const Plan& plan);
 /// InputError: missing, no plan, or changed by hand.
 Plan read_plan(const std::filesystem::path& folder);
 bool has_plan(const std::filesystem::path& folder);
+/// Whether the folder's plan is whole, and this one.
+bool holds_plan(const std::filesystem::path& folder, const Plan& plan);
 
 /// What tells two plans apart, in words; empty: nothing.
 std::string difference(const Plan& there, const Plan& here);

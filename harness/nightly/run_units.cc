@@ -1,10 +1,14 @@
 #include "harness/nightly/run_units.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <mutex>
 
 #include "harness/io/errors.h"
+#include "harness/io/memory.h"
 #include "harness/nightly/unit_file.h"
 #include "harness/nightly/worker_pool.h"
 
@@ -31,6 +35,14 @@ bool take_number(std::string_view& text, std::size_t& value) {
   return true;
 }
 
+std::vector<std::size_t> units_of(const Shard& shard, std::size_t units) {
+  std::vector<std::size_t> mine;
+  for (std::size_t k = 0; k < units; ++k) {
+    if (shard.has(k)) mine.push_back(k);
+  }
+  return mine;
+}
+
 }  // namespace
 
 Shard parse_shard(const std::string& text) {
@@ -44,12 +56,29 @@ Shard parse_shard(const std::string& text) {
   return shard;
 }
 
+void require_memory_of_jobs(std::span<const Unit> units, const Plan& plan, const RunOptions& options, double available) {
+  std::vector<double> bytes;
+  for (const std::size_t k : units_of(options.shard, units.size())) {
+    if (units[k].memory > 0.0 && !kept_outcome(options, plan.units[k], k)) bytes.push_back(units[k].memory);
+  }
+  std::ranges::sort(bytes, std::greater<>());
+  const std::size_t jobs = std::min(bytes.size(), static_cast<std::size_t>(std::max(1, options.jobs)));
+  double sum = 0.0;
+  std::size_t fit = 0;
+  for (std::size_t n = 0; n < jobs; ++n) {
+    sum += bytes[n];
+    if (sum <= available) fit = n + 1;
+  }
+  // One alone is refused by itself, with its key.
+  if (jobs < 2 || sum <= available) return;
+  throw InputError(fmt::format("--jobs: {} of the campaign's simulations at a time would take {} of memory, and {} are left; take {}", jobs, bytes_text(sum),
+                               bytes_text(available), fit > 0 ? fmt::format("--jobs {}", fit) : "smaller ones, or a machine with more memory"));
+}
+
 void run_units(std::span<const Unit> units, const Plan& plan, const RunOptions& options,
                const OnOutcome& on_outcome) {
-  std::vector<std::size_t> mine;
-  for (std::size_t k = 0; k < units.size(); ++k) {
-    if (options.shard.has(k)) mine.push_back(k);
-  }
+  const std::vector<std::size_t> mine = units_of(options.shard, units.size());
+  require_memory_of_jobs(units, plan, options, available_memory());
   std::mutex outcome_mutex;
   run_jobs(mine.size(), options.jobs, [&](std::size_t job) {
     const std::size_t k = mine[job];

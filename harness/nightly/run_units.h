@@ -39,7 +39,12 @@ struct RunOptions {
 /// Called once a unit of the shard, one at a time, in any order.
 using OnOutcome = std::function<void(std::size_t unit, const Outcome&)>;
 
-/// Units that fail are outcomes. MachineError where one cannot be written: what is on the disk by then stays.
+/// Throws InputError where the units that take most memory, as many as run at a time, take more of it than there is: `available`
+/// bytes. What is kept in the folder is not run.
+void require_memory_of_jobs(std::span<const Unit> units, const Plan& plan, const RunOptions& options, double available);
+
+/// Units that fail are outcomes. Throws InputError where they would take too much memory at a time, before any runs; MachineError
+/// where one cannot be written: what is on the disk by then stays.
 void run_units(std::span<const Unit> units, const Plan& plan, const RunOptions& options,
                const OnOutcome& on_outcome);
 

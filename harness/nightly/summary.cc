@@ -40,7 +40,7 @@ reports::Criterion parse_criterion(const Json& j) {
   c.derivation = j.at("derivation");
   c.state = state_of(j.at("state"));
   // What was not measured did not pass, whatever the file says.
-  if (!std::isfinite(c.actual)) c.state = reports::State::error;
+  if (!std::isfinite(c.actual) && c.state != reports::State::missing) c.state = reports::State::error;
   return c;
 }
 
@@ -82,13 +82,16 @@ Summary parse_summary(const Json& j, const std::string& place) {
     }
     return s;
   } catch (const Json::exception& e) {
-    throw InputError(place + ": not the summary of a campaign: " + e.what());
+    throw InputError(place + ": not the summary of a campaign: " + in_words(e));
   } catch (const InputError& e) {
     throw InputError(place + ": not the summary of a campaign: " + e.what());
   }
 }
 
 Summary read_summary(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(folder, ignored))
+    throw InputError(folder.string() + ": a file; give the folder of a run, as ddem validate -o makes it");
   const std::filesystem::path path = folder / "summary.json";
   return parse_summary(read_json(path), path.string());
 }

@@ -6,13 +6,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <optional>
 
 #include "harness/io/errors.h"
+#include "harness/io/leftovers.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -26,9 +30,56 @@ int wait_for(pid_t child) {
   return status;
 }
 
+constexpr std::array kRequests = {SIGINT, SIGTERM, SIGHUP};
+
 bool is_request(int signal) {
-  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+  return std::find(kRequests.begin(), kRequests.end(), signal) != kRequests.end();
 }
+
+volatile std::sig_atomic_t supervised = 0;  // the child that a request goes to
+
+void pass_on(int signal) {
+  ::kill(static_cast<pid_t>(supervised), signal);
+}
+
+/// Holds requests back while it lives: none may get lost between a fork and its PassedOn.
+class HeldBack {
+ public:
+  HeldBack() {
+    sigset_t requests;
+    ::sigemptyset(&requests);
+    for (const int signal : kRequests) ::sigaddset(&requests, signal);
+    ::sigprocmask(SIG_BLOCK, &requests, &before_);
+  }
+  ~HeldBack() { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  HeldBack(const HeldBack&) = delete;
+  HeldBack& operator=(const HeldBack&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+/// Requests go to the child while it lives; those that are ignored, as of a program in the background, stay so.
+class PassedOn {
+ public:
+  explicit PassedOn(pid_t child) {
+    supervised = child;
+    struct sigaction action {};
+    action.sa_handler = pass_on;
+    for (std::size_t k = 0; k < kRequests.size(); ++k) {
+      ::sigaction(kRequests[k], nullptr, &before_[k]);
+      if (before_[k].sa_handler != SIG_IGN) ::sigaction(kRequests[k], &action, nullptr);
+    }
+  }
+  ~PassedOn() {
+    for (std::size_t k = 0; k < kRequests.size(); ++k) ::sigaction(kRequests[k], &before_[k], nullptr);
+  }
+  PassedOn(const PassedOn&) = delete;
+  PassedOn& operator=(const PassedOn&) = delete;
+
+ private:
+  std::array<struct sigaction, kRequests.size()> before_{};
+};
 
 }  // namespace
 
@@ -53,20 +104,27 @@ std::vector<std::size_t> UnitBoard::take_running() {
 }
 
 int supervise(UnitBoard& board, const std::function<int(bool)>& work,
-              const std::function<void(std::size_t, const std::string&)>& on_crash) {
+              const std::function<void(std::size_t, const std::string&)>& on_crash, const std::function<void()>& on_interrupt) {
   for (bool first_time = true;; first_time = false) {
     std::fflush(stdout);  // what waits there must not be written twice
+    std::optional<HeldBack> held_back(std::in_place);
     const pid_t parent = ::getpid(), child = ::fork();
     if (child < 0) throw machine_error("the campaign", "cannot start a process", errno);
     if (child == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      CleanupSection().forget_all();
+      held_back.reset();
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // so that it tidies up, too
       if (::getppid() != parent) ::_exit(static_cast<int>(ExitCode::machine_failed));
       return work(first_time);
     }
+    std::optional<PassedOn> passed_on(std::in_place, child);
+    held_back.reset();
     const int status = wait_for(child);
+    passed_on.reset();
     if (WIFEXITED(status)) return WEXITSTATUS(status);
     const int signal = WTERMSIG(status);
     if (is_request(signal)) {
+      if (on_interrupt) on_interrupt();
       std::signal(signal, SIG_DFL);
       std::raise(signal);
     }

@@ -32,9 +32,11 @@ class UnitBoard {
 /// Runs `work` in a child process and returns its exit code; what `work` throws goes on in the child. Where
 /// the child dies of a signal while units are running, `on_crash` hears of each ("killed by signal 11
 /// (Segmentation fault)"), and another child goes on (first_time false), which must leave these units alone.
-/// Signals by which people end a program (interrupt, terminate, hang up) end this one too. A child that dies
-/// while no unit runs is a MachineError. To be called while the process has one thread.
+/// Signals by which people end a program (interrupt, terminate, hang up) go to the child, and once it has ended `on_interrupt`
+/// is called and they end this one too. A child that dies while no unit runs is a MachineError. To be called while the
+/// process has one thread.
 int supervise(UnitBoard& board, const std::function<int(bool first_time)>& work,
-              const std::function<void(std::size_t unit, const std::string& reason)>& on_crash);
+              const std::function<void(std::size_t unit, const std::string& reason)>& on_crash,
+              const std::function<void()>& on_interrupt = {});
 
 }  // namespace ddem::harness::nightly

@@ -4,9 +4,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <string_view>
+
+#include "harness/io/errors.h"
 
 namespace ddem::harness::nightly {
 namespace {
+
+constexpr std::string_view kSkipped = "skipped: ";
 
 /// Fills `path` from its end: the common case, no such number, costs no text.
 bool has_no_number(const nlohmann::json& value, std::string& path) {
@@ -36,6 +41,10 @@ std::string place_of_no_number(const nlohmann::json& result) {
   return has_no_number(result, path) && path.empty() ? "/" : path;
 }
 
+bool was_skipped(const std::string& failure) { return failure.starts_with(kSkipped); }
+
+std::string reason_of(const std::string& failure) { return was_skipped(failure) ? failure.substr(kSkipped.size()) : failure; }
+
 Outcome run_unit(const Unit& unit) {
   const auto start = std::chrono::steady_clock::now();
   Outcome out;
@@ -45,6 +54,8 @@ Outcome run_unit(const Unit& unit) {
       out.failure = fmt::format("{} of the result is not a finite number", place);
       out.result = nullptr;
     }
+  } catch (const UnsupportedError& e) {
+    out.failure = std::string(kSkipped) + e.what();
   } catch (const std::exception& e) {
     out.failure = e.what();
   } catch (...) {

@@ -15,6 +15,7 @@ struct Unit {
   /// Deterministic but for times. Runs in any thread; throws what keeps it from a result.
   std::function<nlohmann::json()> run;
   bool reports_progress = false;  ///< of all its work, while it runs
+  double memory = 0.0;            ///< bytes at most, where they are known beforehand
 };
 
 /// What became of a unit: a result, or why there is none.
@@ -23,6 +24,11 @@ struct Outcome {
   std::string failure;   ///< empty: ok
   double seconds = 0.0;  ///< wall time
 };
+
+/// Of a failure: the unit needs what its solver cannot do (UnsupportedError).
+bool was_skipped(const std::string& failure);
+/// The failure without the mark of that.
+std::string reason_of(const std::string& failure);
 
 /// Where the first number that is not finite stands ("/waves/3/speed"); empty: there is none.
 std::string place_of_no_number(const nlohmann::json& result);

@@ -8,6 +8,9 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/digest.h"
 #include "harness/io/errors.h"
+#include "harness/io/json.h"
+#include "harness/io/regular_file.h"
+#include "harness/nightly/unit_name.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -40,7 +43,7 @@ json parse_cbor(std::string_view bytes, const std::string& place) {
     if (!json::sax_parse(bytes.begin(), bytes.end(), &parser, json::input_format_t::cbor))
       throw InputError(place + ": damaged: not CBOR, or nested too deep");
   } catch (const json::exception& e) {
-    throw InputError(place + ": damaged: " + e.what());
+    throw InputError(place + ": damaged: " + in_words(e));
   }
   return value;
 }
@@ -84,14 +87,16 @@ UnitRecord parse_unit(std::string_view bytes, const std::string& place) {
         value.at("id"), value.at("identity"), {value.at("result"), value.at("failure"), value.at("seconds")}};
     if (r.outcome.failure.empty() && r.outcome.result.is_null())
       throw InputError(place + ": neither a result nor a reason");
+    if (const std::string at = place_of_no_number(value); !at.empty())
+      throw InputError(fmt::format("{}: {} is not a finite number, which no unit writes", place, at));
     return r;
   } catch (const json::exception& e) {
-    throw InputError(place + ": not a unit's file: " + e.what());
+    throw InputError(place + ": not a unit's file: " + in_words(e));
   }
 }
 
 std::filesystem::path unit_path(const std::filesystem::path& folder, const std::string& id) {
-  return folder / "cases" / (id + ".unit");
+  return folder / "cases" / file_of_unit(id);
 }
 
 void write_unit(const std::filesystem::path& folder, const UnitRecord& record) {
@@ -105,7 +110,7 @@ void write_unit(const std::filesystem::path& folder, const UnitRecord& record) {
 UnitRecord read_unit(const std::filesystem::path& folder, const std::string& id,
                      const std::string& identity) {
   const std::filesystem::path path = unit_path(folder, id);
-  UnitRecord r = parse_unit(read_file(path), path.string());
+  UnitRecord r = parse_unit(read_regular_file(path), path.string());
   if (r.id != id) throw InputError(fmt::format("{}: holds another unit, {}", path.string(), r.id));
   if (r.identity != identity) throw InputError(path.string() + ": of other inputs or another program");
   return r;

@@ -24,7 +24,7 @@ std::string to_bytes(const UnitRecord& record);
 /// `place` is for messages. Throws InputError saying what is wrong.
 UnitRecord parse_unit(std::string_view bytes, const std::string& place);
 
-/// FOLDER/cases/ID.unit.
+/// Below FOLDER/cases: see file_of_unit().
 std::filesystem::path unit_path(const std::filesystem::path& folder, const std::string& id);
 
 /// Whole or not at all, folders made; MachineError. Not flushed to the disk, as a file that a loss of power damages is refused

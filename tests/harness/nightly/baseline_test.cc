@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "harness/io/errors.h"
+#include "harness/nightly/comparison.h"
 #include "harness/nightly/summary.h"
 #include "tests/harness/io/scratch.h"
 
@@ -100,11 +102,91 @@ TEST(Baseline, NewAndLostMetrics) {
   EXPECT_EQ(verdicts[0].state, State::no_baseline);
   ASSERT_EQ(verdicts.size(), 2u);
   EXPECT_EQ(verdicts[1].case_id, "a");
-  EXPECT_EQ(verdicts[1].state, State::skipped);
-  EXPECT_NE(verdicts[1].reason.find("speed"), std::string::npos);
+  EXPECT_EQ(verdicts[1].state, State::missing);
+  ASSERT_EQ(verdicts[1].criteria.size(), 1u);
+  EXPECT_EQ(verdicts[1].criteria[0].metric, "speed");
   EXPECT_FALSE(reports::is_failure(verdicts[0].state));
   EXPECT_EQ(comparisons.size(), 2u);
   EXPECT_NE(comparison_text(comparisons).find("NO_BASELINE"), std::string::npos);
+  // The night's summary keeps the state.
+  const Summary read = parse_summary(summary_json({"t", 1.0, {}, verdicts}), "here");
+  EXPECT_EQ(read.verdicts[1].criteria[0].state, State::missing);
+}
+
+/// Whatever is left out of a run: some metrics of a case, whole cases, all of it. What is there is judged as before.
+TEST(Baseline, WhatARunLacksIsMissing) {
+  std::vector<Verdict> whole;
+  for (const char* id : {"a", "b", "c/d", "e"}) {
+    whole.push_back(verdict(id, 101.0));
+    whole.back().criteria.push_back(whole.back().criteria[0]);
+    whole.back().criteria[1].metric = "other | speed";
+  }
+  std::vector<std::string> left_out;
+  const Baseline baseline = baseline_of({whole}, left_out);
+  ASSERT_EQ(baseline.size(), 8u);
+  for (unsigned kept = 0; kept < 256; ++kept) {
+    std::vector<Verdict> run;
+    std::size_t metrics = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+      Verdict v = whole[k];
+      v.criteria.clear();
+      for (const unsigned c : {0u, 1u}) {
+        if ((kept >> (2 * k + c)) % 2 == 1) v.criteria.push_back(whole[k].criteria[c]), ++metrics;
+      }
+      if (!v.criteria.empty()) run.push_back(v);
+    }
+    std::vector<Verdict> verdicts = run, partial = run;
+    const auto comparisons = compare(verdicts, baseline);
+    EXPECT_EQ(count_of(State::missing, comparisons), 8 - metrics);
+    EXPECT_EQ(count_of(State::pass, comparisons), metrics);
+    EXPECT_EQ(measured_nothing(comparisons), metrics == 0);
+    for (const Verdict& v : verdicts) {
+      const auto lost = std::count_if(v.criteria.begin(), v.criteria.end(), [](const Criterion& c) { return c.state == State::missing; });
+      EXPECT_EQ(v.state, lost > 0 ? State::missing : State::pass) << v.case_id;
+      EXPECT_EQ(v.criteria.size(), 2u);
+    }
+    EXPECT_EQ(verdicts.size(), 4u);
+    const Json j = comparison_json(comparisons);
+    EXPECT_EQ(j["states"]["MISSING"], 8 - metrics);
+    EXPECT_EQ(j["metrics"], 8);
+
+    // Of a run that was to measure a part: what was not asked for is no case's.
+    const auto some = compare(partial, baseline, [](const std::string& id) { return id == "a"; });
+    EXPECT_EQ(count_of(State::missing, some) + count_of(State::skipped, some), 8 - metrics);
+    EXPECT_EQ(count_of(State::missing, some), 2 - (kept & 1u) - ((kept >> 1) & 1u));
+    for (const Verdict& v : partial) EXPECT_EQ(v.state == State::missing, v.case_id == "a" && (kept & 3u) != 3u);
+  }
+}
+
+TEST(Baseline, AnotherUnitOrNameIsNotCompared) {
+  std::vector<Verdict> verdicts = {verdict("a", 102.0)};
+  verdicts[0].criteria[0].unit = "km/s";
+  const auto units = compare(verdicts, baseline_at({102.0}));
+  EXPECT_EQ(verdicts[0].state, State::missing);
+  EXPECT_NE(comparison_text(units).find("in km/s here, in m/s in the baseline"), std::string::npos);
+  verdicts = {verdict("a", 120.0)};
+  verdicts[0].criteria[0].unit = "";
+  compare(verdicts, baseline_at({102.0}));
+  EXPECT_EQ(verdicts[0].state, State::fail) << "worse than MISSING";
+
+  verdicts = {verdict("a", 102.0)};
+  verdicts[0].criteria[0].metric = "sped";
+  verdicts[0].criteria.push_back(verdicts[0].criteria[0]);
+  verdicts[0].criteria[1].metric = "another";
+  const auto names = compare(verdicts, baseline_at({102.0}));
+  EXPECT_EQ(verdicts[0].state, State::missing);
+  EXPECT_NE(comparison_text(names).find("did you mean sped"), std::string::npos) << comparison_text(names);
+}
+
+TEST(Baseline, WithoutMetricsItIsRefused) {
+  const Scratch scratch;
+  put(scratch / "b.json", baseline_text({}));
+  EXPECT_NE(message_of<InputError>([&] { read_baseline(scratch / "b.json"); }).find("not one metric"), std::string::npos);
+  std::filesystem::create_directory(scratch / "run");
+  for (const std::vector<Verdict>& verdicts : {std::vector<Verdict>{}, std::vector<Verdict>{verdict("a", 500.0)}}) {
+    put(scratch / "run/summary.json", to_text(summary_json({"t", 1.0, {}, verdicts})));
+    EXPECT_NE(message_of<InputError>([&] { read_baseline(scratch / "run"); }).find("not one metric"), std::string::npos);
+  }
 }
 
 TEST(Baseline, WhatFailedIsLeftOut) {
@@ -122,7 +204,7 @@ TEST(Baseline, TextIsSortedExactAndALineAMetric) {
       {verdict("z \"quoted\"", 1.0 / 3.0 + 100.0), verdict("a", 102.0)}};
   const Baseline b = baseline_of(nights, left_out);
   const std::string text = baseline_text(b);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 + 3 + 2);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 + 3 + 3);  // the last but one is its digest
   EXPECT_LT(text.find("\"a | speed\""), text.find("quoted"));
   const Baseline back = parse_baseline(text, "here");
   ASSERT_EQ(back.size(), 2u);

@@ -3,6 +3,7 @@
 #include "harness/io/folder_lock.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -46,6 +47,30 @@ TEST(FolderLock, OfAKilledProcessIsFree) {
   EXPECT_NO_THROW(FolderLock(scratch / ""));
   ::close(ready[0]);
   ::close(ready[1]);
+}
+
+TEST(FolderLock, NeverWritesThroughLinks) {
+  const Scratch scratch;
+  put(scratch / "thesis.txt", "precious");
+  const auto refuse = [&] {
+    const auto message = message_of<InputError>([&] { FolderLock lock(scratch / ""); });
+    EXPECT_NE(message.find(".lock"), std::string::npos) << message;
+    EXPECT_EQ(content_of(scratch / "thesis.txt"), "precious");
+    std::filesystem::remove(scratch / ".lock");
+  };
+  std::filesystem::create_symlink("thesis.txt", scratch / ".lock");
+  refuse();
+  std::filesystem::create_hard_link(scratch / "thesis.txt", scratch / ".lock");
+  refuse();
+  std::filesystem::create_symlink("not_there", scratch / ".lock");
+  refuse();
+  EXPECT_FALSE(std::filesystem::exists(scratch / "not_there"));
+  ASSERT_EQ(::mkfifo((scratch / ".lock").c_str(), 0666), 0);
+  refuse();
+  // A file of that name that somebody else keeps there serves, and stays as it is.
+  put(scratch / ".lock", "do not touch");
+  { const FolderLock lock(scratch / ""); }
+  EXPECT_EQ(content_of(scratch / ".lock"), "do not touch");
 }
 
 TEST(FolderLock, WhereNothingCanBeWritten) {

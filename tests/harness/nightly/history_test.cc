@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <thread>
 
 #include "harness/io/errors.h"
 #include "tests/harness/io/scratch.h"
@@ -104,6 +106,19 @@ TEST(History, WallTimeOfEqualWorkOnly) {
   EXPECT_FALSE(regressed(all, "wall time"));
 }
 
+/// Any short night that waits for the processor, at its start, at that of its workers and at its end, is as it was; what takes
+/// longer than that is slower, however short it was.
+TEST(History, WaitsForTheProcessorAreNoSlowerNight) {
+  for (const double seconds : {0.01, 0.04, 0.1, 0.5, 1.4}) {
+    std::vector<Night> all = nights(6, [](int) { return 102.0; });
+    for (Night& n : all) n.summary.wall_seconds = seconds;
+    all.back().summary.wall_seconds = seconds + 0.29;
+    EXPECT_FALSE(regressed(all, "wall time")) << seconds;
+    all.back().summary.wall_seconds = seconds + 0.31;
+    EXPECT_TRUE(regressed(all, "wall time")) << seconds;
+  }
+}
+
 TEST(History, NightsThatFailedAreNoReference) {
   std::vector<Night> all = nights(5, [](int) { return 102.0; });
   all[2].summary.verdicts[0].criteria[0].actual = std::nan("");
@@ -113,22 +128,115 @@ TEST(History, NightsThatFailedAreNoReference) {
   EXPECT_NE(trends_text(all, trends_of(all), false).find("FAIL"), std::string::npos);
 }
 
+std::vector<double> values_of(const std::vector<Night>& nights) {
+  std::vector<double> values;
+  for (const Night& n : nights) values.push_back(n.summary.verdicts[0].criteria[0].actual);
+  return values;
+}
+
+/// Clocks that run ahead, behind, or are reset: in any order of days the last night added is judged, and every night that is
+/// dated before one that was there is named.
+TEST(History, ClocksDoNotOrderNights) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Scratch scratch;
+    std::vector<int> days(6);
+    for (int& day : days) day = std::uniform_int_distribution<int>(0, 250)(random);
+    int latest = days[0];
+    std::size_t backwards = 0;
+    for (std::size_t k = 0; k < days.size(); ++k) {
+      append_night(scratch / "nights", night(days[k], k + 1 == days.size() ? 120.0 : 101.0));
+      backwards += days[k] < latest;
+      latest = std::max(latest, days[k]);
+    }
+    const std::vector<Night> back = read_history(scratch / "nights");
+    EXPECT_EQ(values_of(back), (std::vector<double>{101.0, 101.0, 101.0, 101.0, 101.0, 120.0}));
+    EXPECT_EQ(trends_of(back)[0].state, State::fail);
+    EXPECT_TRUE(regressed(back));
+    EXPECT_EQ(clock_complaints(back).size(), backwards > 0 ? backwards + 1 : 0u);
+  }
+  EXPECT_TRUE(clock_complaints({night(3, 101.0)}, "2026-01-05T00:00:00Z").empty());
+  EXPECT_EQ(clock_complaints({night(3, 101.0)}, "2026-01-03T00:00:00Z").size(), 2u) << "a night of the future";
+}
+
+/// Files of earlier versions are called by their time: they come first, by time.
+TEST(History, NightsThatAreNotCountedComeFirst) {
+  const Scratch scratch;
+  const auto folder = scratch / "nights";
+  append_night(folder, night(9, 101.0));
+  append_night(folder, night(2, 102.0));
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  for (const auto& file : files) {
+    const std::string name = file.filename().string();
+    std::filesystem::rename(file, folder / name.substr(name.find('_') + 1));
+  }
+  EXPECT_EQ(values_of(read_history(folder)), (std::vector<double>{102.0, 101.0}));
+  EXPECT_TRUE(append_night(folder, night(1, 103.0)).filename().string().starts_with("night-000001_"));
+  append_night(folder, night(0, 104.0));
+  EXPECT_EQ(values_of(read_history(folder)), (std::vector<double>{102.0, 101.0, 103.0, 104.0}));
+}
+
+TEST(History, NightsThatAreAddedAtOnceAreAllThere) {
+  const Scratch scratch;
+  std::vector<std::jthread> writers;
+  for (int k = 0; k < 8; ++k) writers.emplace_back([&, k] { append_night(scratch / "nights", night(5, 101.0 + k)); });
+  writers.clear();
+  std::vector<double> values = values_of(read_history(scratch / "nights"));
+  std::sort(values.begin(), values.end());
+  EXPECT_EQ(values, (std::vector<double>{101.0, 102.0, 103.0, 104.0, 105.0, 106.0, 107.0, 108.0}));
+}
+
+TEST(History, WhatTheLastNightLacksIsMissing) {
+  std::vector<Night> all = nights(4, [](int) { return 102.0; });
+  all.back().summary.verdicts[0].case_id = "renamed";
+  const std::vector<Trend> trends = trends_of(all);
+  ASSERT_EQ(trends.size(), 3u);
+  EXPECT_EQ(trends[1].case_id, "a");
+  EXPECT_EQ(trends[1].state, State::missing);
+  EXPECT_NE(trends_text(all, trends, false).find("MISSING     a: speed: none"), std::string::npos) << trends_text(all, trends, false);
+  all.push_back(all.back());
+  EXPECT_EQ(trends_of(all).size(), 2u) << "the night before lacks it, too";
+}
+
 TEST(History, OneFileANight) {
   const Scratch scratch;
   const auto folder = scratch / "nights";
   EXPECT_THROW(read_history(folder), InputError);
   for (const int day : {3, 1, 2, 2}) append_night(folder, night(day, 100.0 + day));
   const std::vector<Night> back = read_history(folder);
-  ASSERT_EQ(back.size(), 4u);
-  EXPECT_EQ(back.front().summary.verdicts[0].criteria[0].actual, 101.0);
-  EXPECT_EQ(back.back().summary.verdicts[0].criteria[0].actual, 103.0);
+  EXPECT_EQ(values_of(back), (std::vector<double>{103.0, 101.0, 102.0, 102.0})) << "in the order in which they were added";
   EXPECT_EQ(back.back().work.seeds, (std::vector<std::int64_t>{1, 2}));
   EXPECT_EQ(back.back().work.steps, 1000);
-  put(folder / "torn.json", "{\"time\": ");
-  put(folder / "other.json", "{}");
+  put(folder / "night-000009_torn.json", "{\"time\": ");
+  put(folder / "2026-01-01T020000Z.json", "{}");
   const auto message = message_of<InputError>([&] { read_history(folder); });
   EXPECT_NE(message.find("torn.json"), std::string::npos);
-  EXPECT_NE(message.find("other.json"), std::string::npos);
+  EXPECT_NE(message.find("2026-01-01T020000Z.json"), std::string::npos);
+}
+
+/// Whatever else is kept in the folder, of any content: also a night by another name, such as a copy.
+TEST(History, OtherFilesAreLeftAlone) {
+  const Scratch scratch;
+  const auto folder = scratch / "nights";
+  std::filesystem::create_directory(folder);
+  const std::vector<std::string> others = {"2026-11-22.json", "202X-11-22T020000Z.json", "baseline.json", "night-.json",
+                                           "night-1.json",    "night-x_1.json",          "summary.json"};
+  for (const std::string& name : others) put(folder / name, "{\"time\": ");
+  EXPECT_NE(message_of<InputError>([&] { read_history(folder); }).find("no nights"), std::string::npos);
+  EXPECT_TRUE(nights_so_far(folder).empty());
+  const auto first = append_night(folder, night(1, 101.0));
+  EXPECT_TRUE(first.filename().string().starts_with("night-000001_"));
+  std::filesystem::copy_file(first, folder / "copy of a night.json");
+  EXPECT_EQ(values_of(read_history(folder)), (std::vector<double>{101.0}));
+  std::vector<std::string> left;
+  for (const auto& file : files_beside_nights(folder)) left.push_back(file.filename().string());
+  std::vector<std::string> expected = others;
+  expected.push_back("copy of a night.json");
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(left, expected);
 }
 
 TEST(History, TextSaysWhatChanged) {

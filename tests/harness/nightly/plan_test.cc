@@ -62,5 +62,22 @@ TEST(Plan, TwoUnitsOfOneNameAreOurError) {
   EXPECT_THROW(toy_plan(units), std::logic_error);
 }
 
+/// Where a campaign's file stood is kept, and makes no other plan of it: shards may be started from anywhere.
+TEST(Plan, ItsSourceIsNoPartOfIt) {
+  const Scratch scratch;
+  Plan here = toy_plan(toy_units(3)), there = here;
+  here.source = "a/campaign.toml";
+  EXPECT_EQ(difference(here, there), "");
+  write_plan(scratch / "", here);
+  EXPECT_EQ(read_plan(scratch / "").source, here.source);
+  EXPECT_TRUE(holds_plan(scratch / "", there));
+  std::string text = content_of(scratch / "plan.json");
+  text.replace(text.find("a/campaign"), 1, "b");
+  std::filesystem::remove(scratch / "plan.json");
+  put(scratch / "plan.json", text);
+  EXPECT_NE(message_of<InputError>([&] { read_plan(scratch / ""); }).find("digest"), std::string::npos);
+  EXPECT_FALSE(holds_plan(scratch / "", there));
+}
+
 }  // namespace
 }  // namespace ddem::harness::nightly

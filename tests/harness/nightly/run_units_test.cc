@@ -57,6 +57,36 @@ TEST(RunUnits, ShardsAsWritten) {
   }
 }
 
+/// Those that take most may all come together; those that are kept, or are another shard's, do not.
+TEST(RunUnits, OfKnownMemoryRunAsManyAtATimeAsFit) {
+  const Scratch scratch;
+  std::vector<Unit> units = toy_units(6);
+  for (std::size_t k = 0; k < units.size(); ++k) units[k].memory = 1e9 * static_cast<double>(k);  // 15 GB, of the largest two 9
+  const Plan plan = toy_plan(units);
+  const auto refusal = [&](int jobs, double available, Shard shard = {}, bool resume = false) {
+    try {
+      require_memory_of_jobs(units, plan, {.folder = scratch / "", .jobs = jobs, .shard = shard, .resume = resume}, available);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(2, 9.1e9), "");
+  EXPECT_EQ(refusal(2, 8.9e9), "--jobs: 2 of the campaign's simulations at a time would take 9 GB of memory, and 8.9 GB are left; take --jobs 1");
+  EXPECT_NE(refusal(4, 13e9).find("take --jobs 3"), std::string::npos) << refusal(4, 13e9);
+  EXPECT_EQ(refusal(1, 1.0), "") << "one alone says so itself";
+  EXPECT_EQ(refusal(100, 15.1e9), "");
+  EXPECT_NE(refusal(100, 14.9e9), "");
+  EXPECT_NE(refusal(2, 1e9).find("smaller ones"), std::string::npos);
+  EXPECT_EQ(refusal(2, 5.1e9, {2, 3}), "") << "of 1 and 4";
+  EXPECT_NE(refusal(2, 4.9e9, {2, 3}), "");
+  outcomes_of(units, {.folder = scratch / "", .shard = {6, 6}});  // unit 5
+  EXPECT_EQ(refusal(2, 7.1e9, {}, true), "");
+  EXPECT_NE(refusal(2, 7.1e9), "");
+  for (Unit& unit : units) unit.memory = 0.0;
+  EXPECT_EQ(refusal(100, 1.0), "");
+}
+
 TEST(RunUnits, ResumesWithWhatIsWhole) {
   const Scratch scratch;
   std::vector<std::atomic<int>> runs(9);

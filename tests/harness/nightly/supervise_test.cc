@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -36,6 +37,44 @@ int run_supervised(const std::vector<Unit>& units, RunOptions options) {
     write_unit(options.folder, {plan.units[unit].id, plan.units[unit].identity, {nullptr, reason}});
     options.given_up.push_back(unit);
   });
+}
+
+/// Of a supervisor that is asked to end: the child hears of it and may leave by itself; then what `on_interrupt` does is done,
+/// and the supervisor has died of the same request.
+TEST(Supervise, RequestsToEndReachTheChildFirst) {
+  for (const int request : {SIGINT, SIGTERM, SIGHUP}) {
+    int said[2];
+    ASSERT_EQ(::pipe(said), 0);
+    const auto say = [&said](const char* word) { return ::write(said[1], word, 1) == 1; };
+    const pid_t supervisor = ::fork();
+    if (supervisor == 0) {
+      UnitBoard board(1);
+      static int heard = said[1];
+      const auto work = [&](bool) -> int {
+        std::signal(request, [](int signal) {
+          if (::write(heard, "c", 1) != 1) ::_exit(1);
+          std::signal(signal, SIG_DFL);
+          std::raise(signal);
+        });
+        say("r");
+        for (;;) ::pause();
+      };
+      supervise(board, work, [](std::size_t, const std::string&) {}, [&] { say("i"); });
+      ::_exit(1);
+    }
+    char word = 0;
+    ASSERT_EQ(::read(said[0], &word, 1), 1);
+    EXPECT_EQ(word, 'r');
+    ::kill(supervisor, request);
+    int status = 0;
+    ::waitpid(supervisor, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == request) << status;
+    ::close(said[1]);
+    std::string words;
+    while (::read(said[0], &word, 1) == 1) words += word;
+    EXPECT_EQ(words, "ci");
+    ::close(said[0]);
+  }
 }
 
 TEST(Supervise, ACrashIsAFailureAndTheRestIsThere) {

@@ -71,6 +71,9 @@ TEST(UnitFile, RubbishWithAGoodChecksum) {
         std::string("\x5b\x7f\xff\xff\xff\xff\xff\xff\xff")}) {
     EXPECT_THROW(parse_unit(with_checksum(content), "here"), InputError);
   }
+  UnitRecord infinite = record();
+  infinite.outcome.result["series"][3] = HUGE_VAL;
+  EXPECT_NE(message_of<InputError>([&] { parse_unit(to_bytes(infinite), "here"); }).find("/result/series/3"), std::string::npos);
   UnitRecord neither = record();
   neither.outcome.result = nullptr;
   EXPECT_THROW(parse_unit(to_bytes(neither), "here"), InputError);
