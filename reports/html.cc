@@ -26,9 +26,12 @@ class Anchors {
   std::set<std::string> used_ = {"verdicts", "provenance"};
 };
 
-void append_head(Markup& out, const Report& report) {
+constexpr std::string_view kMark = "ddem-campaign";
+
+void append_head(Markup& out, const Report& report, std::string_view campaign) {
   out.open("head").newline();
   out.empty("meta", {{"charset", "utf-8"}});
+  if (!campaign.empty()) out.empty("meta", {{"name", kMark}, {"content", campaign}});
   out.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   // Without an icon of its own a page from a server asks for one.
   out.empty("link", {{"rel", "icon"}, {"href", "data:,"}});
@@ -73,14 +76,14 @@ void append_script(Markup& out, std::string_view script) {
   out.open("script").raw("//<![CDATA[\n").raw(script).raw("\n//]]>").close().newline();
 }
 
-std::string render(const Report& report, const Detail& detail, std::string_view plotly) {
+std::string render(const Report& report, const Detail& detail, const HtmlOptions& options) {
   Anchors anchors;
   std::vector<std::string> section_ids;
   for (const Section& s : report.sections) section_ids.push_back(anchors.make("section-" + s.heading));
 
   Markup out;
   out.raw("<!DOCTYPE html>\n").open("html", {{"lang", "en"}}).newline();
-  append_head(out, report);
+  append_head(out, report, options.campaign);
   out.open("body").newline().open("header").element("h1", {}, report.title.empty() ? "Report" : report.title);
   for (const std::string& line : report.summary) out.element("p", {}, line);
   append_headlines(out, report);
@@ -100,7 +103,7 @@ std::string render(const Report& report, const Detail& detail, std::string_view 
   out.close().newline();
   if (detail.live_points > 0) {
     out.open("script", {{"type", "application/json"}, {"id", "palette"}}).raw(live_palette()).close().newline();
-    append_script(out, plotly);
+    append_script(out, options.plotly);
   }
   append_script(out, kScript);
   out.close().close().newline();
@@ -122,10 +125,18 @@ std::string render_html(const Report& report, const HtmlOptions& options) {
       throw std::invalid_argument("the plotting library holds " + std::string(end) + ", which ends a script of a page");
   std::string html;
   for (const Detail& detail : options.plotly.empty() ? std::span<const Detail>(still) : std::span<const Detail>(live)) {
-    html = render(report, detail, options.plotly);
+    html = render(report, detail, options);
     if (html.size() < kReportSizeLimit) break;
   }
   return html;
+}
+
+std::string marked_campaign(std::string_view page) {
+  const std::string before = "name=\"" + std::string(kMark) + "\" content=\"";
+  const std::size_t found = page.find(before);
+  if (found == std::string_view::npos) return "";
+  const std::string_view mark = page.substr(found + before.size());
+  return std::string(mark.substr(0, mark.find('"')));
 }
 
 }  // namespace ddem::reports

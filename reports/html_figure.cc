@@ -44,6 +44,7 @@ bool is_live(const Figure& figure) {
 }  // namespace
 
 void append_figure(Markup& out, const Figure& figure, const std::string& anchor, const Detail& page) {
+  require_valid(figure);
   Detail detail = page;
   if (!is_live(figure)) detail.live_points = 0;
   out.open("figure", {{"id", anchor}}).newline();

@@ -1,5 +1,7 @@
 #include "reports/junit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
@@ -36,11 +38,15 @@ std::string message(const Verdict& v) {
   return text.empty() ? std::string(to_string(v.state)) : text;
 }
 
+std::string seconds_text(double seconds) {
+  return fmt::format("{:.6f}", seconds);
+}
+
 void append_case(pugi::xml_node suite, std::string_view suite_name, const Verdict& v) {
   pugi::xml_node node = suite.append_child("testcase");
   node.append_attribute("classname").set_value(clean_utf8(suite_name).c_str());
   node.append_attribute("name").set_value(clean_utf8(v.case_id).c_str());
-  node.append_attribute("time").set_value("0");
+  node.append_attribute("time").set_value(seconds_text(v.seconds).c_str());
   if (const char* element = outcome_element(v.state)) {
     pugi::xml_node outcome = node.append_child(element);
     outcome.append_attribute("message").set_value(clean_utf8(message(v)).c_str());
@@ -61,6 +67,8 @@ std::string render_junit(std::string_view suite, const std::vector<Verdict>& ver
           return own != nullptr && own == element;
         }));
   };
+  double seconds = 0.0;
+  for (const Verdict& v : verdicts) seconds += v.seconds;
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("testsuites");
   pugi::xml_node node = root.append_child("testsuite");
@@ -70,6 +78,7 @@ std::string render_junit(std::string_view suite, const std::vector<Verdict>& ver
     n.append_attribute("failures").set_value(count("failure"));
     n.append_attribute("errors").set_value(count("error"));
     n.append_attribute("skipped").set_value(count("skipped"));
+    n.append_attribute("time").set_value(seconds_text(seconds).c_str());
   }
   for (const Verdict& v : verdicts) append_case(node, suite, v);
   std::ostringstream out;

@@ -44,6 +44,8 @@ constexpr std::size_t kReportSizeLimit = 5'000'000;  ///< bytes
 struct HtmlOptions {
   /// Text of plotly's cartesian bundle, which goes into the page once and makes its figures interactive. Empty: they are SVG.
   std::string_view plotly = {};
+  /// Which campaign the report is of, for programs: in the page's head.
+  std::string_view campaign = {};
 };
 
 /// One HTML5 file (well-formed as XML too) that needs no network. The same report gives the same bytes. Interactive figures
@@ -52,5 +54,8 @@ struct HtmlOptions {
 /// std::invalid_argument for figures that require_valid() refuses, for table rows longer than their header, naming them, and for a
 /// library that cannot stand inside a page. A report that is too large even so (thousands of verdicts) is returned as it is.
 std::string render_html(const Report& report, const HtmlOptions& options = {});
+
+/// HtmlOptions::campaign of a page, from its beginning; empty where there is none.
+std::string marked_campaign(std::string_view page);
 
 }  // namespace ddem::reports

@@ -207,6 +207,7 @@ constexpr auto names(State) {
                     Name{State::fail, "fail"},
                     Name{State::unstable, "unstable"},
                     Name{State::regressed, "regressed"},
+                    Name{State::missing, "missing"},
                     Name{State::no_baseline, "no_baseline"},
                     Name{State::skipped, "skipped"},
                     Name{State::unstable_as_expected, "unstable_as_expected"},
@@ -281,8 +282,8 @@ class Reader {
     if (found == object_.end()) return;
     try {
       take(*found, member);
-    } catch (const Json::exception& e) {
-      throw std::invalid_argument(std::string(key) + ": " + e.what());
+    } catch (const Json::exception&) {
+      throw std::invalid_argument(std::string(key) + ": of another type, or too short");
     } catch (const std::invalid_argument& e) {
       throw std::invalid_argument(std::string(key) + ": " + e.what());
     }

@@ -26,6 +26,8 @@ std::string_view to_string(State state) {
       return "UNSTABLE";
     case State::regressed:
       return "REGRESSED";
+    case State::missing:
+      return "MISSING";
     case State::no_baseline:
       return "NO_BASELINE";
     case State::skipped:
@@ -40,7 +42,7 @@ std::string_view to_string(State state) {
 
 bool is_failure(State state) {
   return state == State::error || state == State::fail || state == State::unstable ||
-         state == State::regressed;
+         state == State::regressed || state == State::missing;
 }
 
 bool is_pass(State state) {

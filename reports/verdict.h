@@ -14,6 +14,7 @@ enum class State {
   fail,                  ///< outside its tolerance
   unstable,              ///< diverged, and theory did not say so
   regressed,             ///< inside its tolerance, but worse than the baseline beyond its noise
+  missing,               ///< the baseline has it, and it was not measured, or in another unit
   no_baseline,           ///< nothing to compare with
   skipped,               ///< not run, for a reason
   unstable_as_expected,  ///< diverged, as theory says it must: counts as passed
@@ -23,6 +24,7 @@ constexpr State kStatesWorstFirst[] = {State::error,
                                        State::fail,
                                        State::unstable,
                                        State::regressed,
+                                       State::missing,
                                        State::no_baseline,
                                        State::skipped,
                                        State::unstable_as_expected,
@@ -30,7 +32,7 @@ constexpr State kStatesWorstFirst[] = {State::error,
 
 /// "PASS", "FAIL", "UNSTABLE (expected)", ...
 std::string_view to_string(State state);
-bool is_failure(State state);  ///< error, fail, unstable, regressed
+bool is_failure(State state);  ///< error, fail, unstable, regressed, missing
 bool is_pass(State state);     ///< pass, unstable_as_expected
 
 struct Criterion {
@@ -51,6 +53,7 @@ struct Verdict {
   std::string reason = {};
   std::vector<Criterion> criteria = {};
   std::string reproduce = {};  ///< the command that runs this case alone
+  double seconds = 0.0;        ///< wall time that was spent on it; not drawn
   std::vector<std::pair<std::string, std::string>> facets = {};  ///< what to filter by: {"packing", "random"}; names of letters and hyphens
 };
 

@@ -7,7 +7,9 @@
 #include "harness/bench/bench_report.h"
 #include "harness/campaign/write_results.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/print_json.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
 #include "harness/io/progress.h"
 
@@ -16,7 +18,7 @@ namespace {
 
 struct Options {
   std::string only, folder;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 void print_kernels(const std::vector<bench::KernelTime>& kernels) {
@@ -57,9 +59,21 @@ void print_peers(const bench::Peers& peers) {
   if (!peers.reason.empty()) fmt::print("\npeers: {}\n", peers.reason);
 }
 
+struct Files {
+  explicit Files(const std::filesystem::path& folder) : json(folder / "bench.json"), html(folder / "bench.html") {}
+  std::filesystem::path json, html;
+};
+
+void claim_folder(const Options& o) {
+  prepare_folder(o.folder);
+  const Files files(o.folder);
+  claim_outputs({{files.json, OutputKind::bench_json}, {files.html, OutputKind::report}}, {}, o.force);
+}
+
 void write_files(const std::string& folder, const bench::BenchResults& results) {
-  write_json(std::filesystem::path(folder) / "bench.json", bench::bench_json(results));
-  write_file(std::filesystem::path(folder) / "bench.html", reports::render_html(bench::bench_report(results)));
+  const Files files(folder);
+  write_json(files.json, bench::bench_json(results));
+  write_file(files.html, reports::render_html(bench::bench_report(results)));
 }
 
 int run(const Options& o) {
@@ -69,7 +83,7 @@ int run(const Options& o) {
     plan.work_precision = o.only == "work-precision";
     plan.peers = o.only == "peers";
   }
-  if (!o.folder.empty()) prepare_folder(o.folder);
+  if (!o.folder.empty()) claim_folder(o);
   bench::BenchResults results;
   {
     Progress progress(bench::bench_work(plan), "measuring");
@@ -77,7 +91,7 @@ int run(const Options& o) {
   }
   if (!o.folder.empty()) write_files(o.folder, results);
   if (o.json) {
-    fmt::print("{}", to_text(bench::bench_json(results)));
+    print_json(bench::bench_json(results));
     return static_cast<int>(ExitCode::done);
   }
   fmt::print("triad: {:.1f} GB/s with one thread, {:.1f} at most ({} threads)\n", results.triad_one_thread, results.triad, results.triad_threads);
@@ -100,7 +114,8 @@ void add_bench_command(CLI::App& app, Action& action) {
                   "peers           LAMMPS (lmp on the PATH) and Yade (yade) on the same discs, where they are installed (Debian: lammps, yade)\n"
                   "Without --only: all of it, in one to three minutes. Times are those of a machine that does nothing else.");
   command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "peers"}));
-  command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
+  CLI::Option* output = command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
+  command->add_flag("--force", o->force, "replace files, too, that ddem did not write")->needs(output);
   command->add_flag("--json", o->json, "print the result as JSON");
   command->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -10,9 +10,12 @@
 #include "harness/calibrate/curves.h"
 #include "harness/calibrate/scene_text.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/print_json.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
+#include "harness/io/message.h"
 #include "harness/io/progress.h"
 #include "reports/svg.h"
 
@@ -24,7 +27,8 @@ struct Options {
   std::string density, assembly, plane = "stress", output, curves, prefer = "stiffest";
   std::optional<double> stiffness_ratio, softness, particle_poisson_ratio;
   int seeds = 6, proof_seeds = 8, jobs = 0;
-  bool json = false;
+  const CLI::Option *seeds_option = nullptr, *proof_seeds_option = nullptr, *prefer_option = nullptr;
+  bool json = false, force = false;
 };
 
 constexpr std::array<const char*, kTargetKinds.size()> kTargetOptions = {
@@ -79,7 +83,8 @@ SearchSpace search_space(const Options& o, const Scene& scene) {
   space.preference = o.prefer == "margin" ? Preference::margin : Preference::stiffest;
   std::vector<std::string> problems;
   if (o.stiffness_ratio) {
-    if (!(*o.stiffness_ratio >= 0.0) || !(*o.stiffness_ratio <= space.stiffness_ratio.high))
+    const bool usual = magnitude_problem(*o.stiffness_ratio, Dimension::none).empty();
+    if (!usual || !(*o.stiffness_ratio >= 0.0) || !(*o.stiffness_ratio <= space.stiffness_ratio.high))
       problems.push_back(fmt::format("--stiffness-ratio {}: give a number from 0 to {:g}", *o.stiffness_ratio,
                                      space.stiffness_ratio.high));
     space.stiffness_ratio = {*o.stiffness_ratio, *o.stiffness_ratio};
@@ -101,8 +106,21 @@ SearchSpace search_space(const Options& o, const Scene& scene) {
     }
     space.particle_poisson_ratio = {*o.particle_poisson_ratio, *o.particle_poisson_ratio};
   }
+  for (const CLI::Option* option : {o.seeds_option, o.proof_seeds_option}) {
+    const bool counts_packings = option == o.seeds_option || o.proof_seeds > 1;
+    if (option->count() > 0 && counts_packings && !seed_of(scene))
+      problems.push_back(option->get_name() + ": this assembly has no seed, one packing is all there is; leave it out");
+  }
+  if (o.prefer_option->count() > 0 && !(scene.deformation && space.free_parameters() > 1))
+    problems.push_back("--prefer: there is nothing to choose, " +
+                       std::string(scene.deformation ? "Poisson's ratio settles the one parameter that is not held; leave it out, or hold less"
+                                                     : "rigid discs have k_t/k_n alone to meet Poisson's ratio; leave it out"));
   if (!problems.empty()) throw InputError(problems);
   return space;
+}
+
+std::filesystem::path curves_path(const Options& o, const char* ending) {
+  return o.curves.empty() ? std::filesystem::path() : std::filesystem::path(o.curves) / (std::string("design-curves") + ending);
 }
 
 void write_curves(const Options& o, const Scene& scene, const Calibration& c, int threads) {
@@ -115,13 +133,13 @@ void write_curves(const Options& o, const Scene& scene, const Calibration& c, in
     Progress progress(curve_count(scene), "design curves");
     curves = design_curves(scene, options, [&] { progress.advance(); });
   }
-  const std::filesystem::path folder(o.curves);
-  write_file(folder / "design-curves.csv", curve_csv(curves));
-  write_file(folder / "design-curves.svg", reports::render_svg(curve_figure(curves)));
+  write_file(curves_path(o, ".csv"), curve_csv(curves));
+  write_file(curves_path(o, ".svg"), reports::render_svg(curve_figure(curves)));
 }
 
 std::string scene_file_text(const Options& o, const Scene& scene, const Calibration& c) {
-  const std::string text = calibrated_text(scene, c.found);
+  std::string text = calibrated_text(scene, c.found);
+  if (!text.starts_with(kWrittenScene)) text.insert(0, kWrittenScene);
   if (!o.assembly.empty()) return text;
   const double shear = c.target.young_modulus / (2.0 * (1.0 + c.target.poisson_ratio));
   return text + default_load_text(std::sqrt(shear / c.target.density.value()));
@@ -131,9 +149,10 @@ int calibrate(const Options& o) {
   const Target target = make_target(wanted_values(o));
   const Scene scene = scene_to_calibrate(o, target);
   const SearchSpace space = search_space(o, scene);
-  check_outputs({o.output}, scene);
-  if (!o.curves.empty() && !std::filesystem::is_directory(o.curves))
-    throw MachineError(o.curves + ": no such folder; create it first");
+  claim_outputs({{o.output, OutputKind::scene},
+                 {curves_path(o, ".csv"), OutputKind::curves_csv},
+                 {curves_path(o, ".svg"), OutputKind::figure}},
+                o.assembly.empty() ? std::vector<std::filesystem::path>{} : files_read_by(scene), o.force);
   const int threads =
       o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const Calibration c = calibrate(scene, target, {space, o.seeds, threads});
@@ -145,9 +164,13 @@ int calibrate(const Options& o) {
   }
   if (c.feasible && !o.output.empty()) write_file(o.output, scene_file_text(o, scene, c));
   if (!o.curves.empty()) write_curves(o, scene, c, threads);
-  fmt::print("{}", o.json ? to_text(calibration_json(scene, c, proof)) : calibration_text(scene, c, proof));
+  if (o.json) {
+    print_json(calibration_json(scene, c, proof));
+  } else {
+    fmt::print("{}", calibration_text(scene, c, proof));
+  }
   if (!c.feasible && !o.output.empty())
-    fmt::print(stderr, "ddem: {} was not written: no parameters reach the target\n", o.output);
+    message("ddem: {} was not written: no parameters reach the target", o.output);
   return static_cast<int>(c.feasible ? ExitCode::done : ExitCode::verdict_failed);
 }
 
@@ -188,26 +211,27 @@ void add_calibrate_command(CLI::App& app, Action& action) {
   command->add_option(
       "--assembly", o->assembly,
       "scene whose kind of assembly and [deformation] to calibrate (default: 682 random discs, rigid)");
-  command->add_option("--seeds", o->seeds, "random packings to fit, from the scene's seed on")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--proof-seeds", o->proof_seeds, "further ones to try the result on; 0: none")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
+  o->seeds_option = command->add_option("--seeds", o->seeds, "random packings to fit, from the scene's seed on")
+                        ->check(CLI::Range(1, 1000))
+                        ->capture_default_str();
+  o->proof_seeds_option = command->add_option("--proof-seeds", o->proof_seeds, "further ones to try the result on; 0: none")
+                              ->check(CLI::Range(0, 1000))
+                              ->capture_default_str();
   command->add_option("--stiffness-ratio", o->stiffness_ratio, "hold k_t/k_n");
   command->add_option("--softness", o->softness, "hold k_n/E_p");
   command->add_option("--particle-poisson", o->particle_poisson_ratio, "hold nu_p");
-  command
-      ->add_option("--prefer", o->prefer,
-                   "stiffest: the stiffest discs, then the largest stability margin; margin: the largest "
-                   "stability margin")
-      ->check(CLI::IsMember({"stiffest", "margin"}))
-      ->capture_default_str();
+  o->prefer_option = command
+                         ->add_option("--prefer", o->prefer,
+                                      "stiffest: the stiffest discs, then the largest stability margin; margin: the largest "
+                                      "stability margin")
+                         ->check(CLI::IsMember({"stiffest", "margin"}))
+                         ->capture_default_str();
   command->add_option("--curves", o->curves,
                       "folder for design-curves.csv and .svg: nu and E/k_n over k_t/k_n");
   command->add_option("-o,--output", o->output, "scene file to write");
   command->add_option("-j,--jobs", o->jobs, "packings at a time (default: the machine's cores)")
       ->check(CLI::Range(1, 1024));
+  command->add_flag("--force", o->force, "replace files, too, that ddem did not write");
   command->add_flag("--json", o->json, "print the result as JSON");
   command->callback([o, &action] { action = [o] { return calibrate(*o); }; });
 }

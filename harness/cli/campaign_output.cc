@@ -4,10 +4,13 @@
 
 #include <algorithm>
 
+#include "harness/campaign/report_content.h"
 #include "harness/campaign/write_results.h"
 #include "harness/io/errors.h"
+#include "harness/io/message.h"
 #include "harness/nightly/history_figures.h"
 #include "harness/provenance/provenance.h"
+#include "reports/text.h"
 
 namespace ddem::harness {
 namespace {
@@ -15,10 +18,11 @@ namespace {
 void print_verdicts(const std::vector<reports::Verdict>& verdicts) {
   for (const reports::Verdict* v : reports::worst_first(verdicts)) {
     if (reports::is_pass(v->state)) continue;
-    fmt::print("{}: {} {}\n", reports::to_string(v->state), v->case_id, v->reason);
+    fmt::print("{}", reports::clean_utf8(fmt::format("{}: {} {}\n", reports::to_string(v->state), v->case_id, v->reason)));
     for (const reports::Criterion& c : v->criteria) {
-      if (!reports::is_pass(c.state)) fmt::print("    {}\n", reports::outcome_text(c));
+      if (!reports::is_pass(c.state)) fmt::print("    {}\n", reports::clean_utf8(reports::outcome_text(c)));
     }
+    if (!v->reproduce.empty()) fmt::print("    reproduce: {}\n", reports::clean_utf8(v->reproduce));
   }
   fmt::print("{}\n", reports::headcount(verdicts));
 }
@@ -32,15 +36,12 @@ std::string time_of(const nightly::Summary& summary) {
 nightly::WorkCounts work_of(const PlannedCampaign& campaign, const CampaignResults& results) {
   nightly::WorkCounts work;
   work.units = static_cast<std::int64_t>(campaign.plan().units.size());
-  work.simulations = static_cast<std::int64_t>(results.waves.size());
-  for (const WaveOutcome& w : results.waves) work.steps += w.steps;
-  for (const FemOutcome& f : results.fem) work.finite_element_runs += f.dofs > 0;
-  work.seeds = campaign.spec().strip.seeds;
+  for (const PlannedStudy& s : results.studies) s.study->count(work);
   return work;
 }
 
 nightly::Night night_of(const PlannedCampaign& campaign, const CampaignResults& results, const std::vector<reports::Verdict>& verdicts) {
-  const nightly::Summary summary{results.campaign.title, results.wall_seconds, provenance(), verdicts};
+  const nightly::Summary summary{campaign_title(results.tables), results.wall_seconds, provenance(), verdicts};
   return {time_of(summary), summary, work_of(campaign, results)};
 }
 
@@ -49,11 +50,20 @@ reports::Section trends_until(const nightly::Night& night, const std::filesystem
   try {
     std::vector<nightly::Night> nights = nightly::nights_so_far(folder);
     nights.push_back(night);
+    for (const std::string& complaint : nightly::clock_complaints(nights)) message("history: {}", complaint);
     return nightly::history_section(nights);
   } catch (const InputError& e) {
-    fmt::print(stderr, "no trends in the report: {}\n", e.what());
+    message("no trends in the report: {}", e.what());
     return {.heading = "History", .paragraphs = {fmt::format("Not drawn: {}", e.what())}};
   }
+}
+
+/// Of what the run was to measure: --only and --static leave cases out.
+void compare_with_baseline(const PlannedCampaign& campaign, const Conclusion& conclusion, std::vector<reports::Verdict>& verdicts) {
+  const auto selected = [&](const std::string& id) { return !conclusion.partial && campaign.selects(id); };
+  const auto comparisons = nightly::compare(verdicts, *conclusion.baseline, selected);
+  if (const std::size_t skipped = nightly::count_of(reports::State::skipped, comparisons); skipped > 0)
+    fmt::print("baseline: {} of its {} metrics are not of what was run, and were not judged\n", skipped, conclusion.baseline->size());
 }
 
 }  // namespace
@@ -61,12 +71,12 @@ reports::Section trends_until(const nightly::Night& night, const std::filesystem
 int conclude_campaign(const PlannedCampaign& campaign, const CampaignResults& results,
                       const Conclusion& conclusion) {
   std::vector<reports::Verdict> verdicts = campaign.verdicts(results);
-  if (conclusion.baseline) nightly::compare(verdicts, *conclusion.baseline);
+  if (conclusion.baseline) compare_with_baseline(campaign, conclusion, verdicts);
   if (conclusion.history.empty()) {
-    write_results(conclusion.folder, results, verdicts);
+    write_results(conclusion.folder, results, report_of(results, verdicts));
   } else {
     const nightly::Night night = night_of(campaign, results, verdicts);
-    write_results(conclusion.folder, results, verdicts, {trends_until(night, conclusion.history)});
+    write_results(conclusion.folder, results, report_of(results, verdicts, {trends_until(night, conclusion.history)}));
     fmt::print("history: {}\n", nightly::append_night(conclusion.history, night).string());
   }
   print_verdicts(verdicts);

@@ -10,6 +10,8 @@ namespace ddem::harness {
 using Action = std::function<int()>;
 
 void add_run_command(CLI::App& app, Action& action);
+void add_export_command(CLI::App& app, Action& action);
+void add_measure_command(CLI::App& app, Action& action);
 void add_fem_command(CLI::App& app, Action& action);
 void add_moduli_command(CLI::App& app, Action& action);
 void add_stability_command(CLI::App& app, Action& action);

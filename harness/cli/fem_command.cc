@@ -7,11 +7,15 @@
 #include "harness/cli/commands.h"
 #include "harness/cli/fem_fields.h"
 #include "harness/cli/output.h"
+#include "harness/cli/print_json.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/cli/xdmf.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
+#include "harness/io/message.h"
 #include "harness/model/load.h"
+#include "harness/run/load_limits.h"
 #include "harness/run/run_json.h"
 
 namespace ddem::harness {
@@ -20,7 +24,7 @@ namespace {
 struct Options {
   std::string scene, hdf5, csv;
   int snapshots = 0;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 void print_summary(const FemPlan& plan, const FemResult& r, const std::optional<WaveMeasurement>& m) {
@@ -39,20 +43,25 @@ void print_summary(const FemPlan& plan, const FemResult& r, const std::optional<
 int run(const Options& o) {
   const Scene scene = load_scene(o.scene, Purpose::continuum);
   const std::string xdmf = o.snapshots > 0 ? xdmf_path(o.hdf5).string() : std::string();
-  check_outputs({o.hdf5, o.csv, xdmf}, scene);
+  claim_outputs({{o.hdf5, OutputKind::run_hdf5}, {o.csv, OutputKind::signals_csv}, {xdmf, OutputKind::xdmf}}, files_read_by(scene),
+                o.force);
   if (o.snapshots > 0) check_snapshots(scene);
   std::optional<SceneModuli> moduli;
-  if (!continuum_stands_alone(scene)) moduli = scene_moduli(scene);
+  if (needs_moduli(scene)) moduli = scene_moduli(scene);
   FemPlan plan = plan_fem(scene, moduli);
   plan.fem.snapshots = o.snapshots;
   const FemResult result = run_fem(std::span(&plan.fem, 1), {}, scene.run.threads).front();
   if (result.status != "ok") throw SolverError(o.scene + ": ddem-fem: " + result.status);
 
+  std::vector<std::string> warnings;
+  if (auto w = strain_warning(scene, plan.context, plan.fem.column_spacing)) warnings.push_back(std::move(*w));
+  if (plan.fem.integrator == Integrator::verlet) {
+    if (auto w = drive_warning(scene, result.time_step)) warnings.push_back(std::move(*w));
+  }
+  for (const std::string& warning : warnings) message("ddem: warning: {}", warning);
   const Wave wave = wave_of(scene).value();
   std::optional<WaveMeasurement> measurement;
-  if (!plan.layout.pairs.empty()) {
-    measurement = measure_wave(receiver_signals(plan, result, wave), result.sample_interval, plan.layout, plan.context);
-  }
+  if (!plan.layout.pairs.empty()) measurement = measure_fem(plan, result, wave);
   SignalTable table;
   table.time = result.time;
   const auto& ux = plan.sections ? result.section_ux : result.point_ux;
@@ -63,7 +72,9 @@ int run(const Options& o) {
   });
   if (!xdmf.empty()) write_file(xdmf, fem_xdmf_text(result.fields, std::filesystem::path(o.hdf5).filename().string()));
   if (o.json) {
-    fmt::print("{}", to_text(fem_json(plan, result, measurement)));
+    Json j = fem_json(plan, result, measurement);
+    j["warnings"] = warnings;
+    print_json(j);
   } else {
     print_summary(plan, result, measurement);
   }
@@ -88,6 +99,7 @@ void add_fem_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 10000))
       ->needs(output);
   command->add_option("--signals", o->csv, "write the receivers' signals to this CSV file");
+  command->add_flag("--force", o->force, "replace files, too, that ddem did not write");
   command->add_flag("--json", o->json, "print the result as JSON");
   command->callback([o, &action] { action = [o] { return run(*o); }; });
 }

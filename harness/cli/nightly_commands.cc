@@ -1,14 +1,21 @@
 // ddem baseline, compare, history: a run against what was before it.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <memory>
 
+#include "harness/cli/campaign_output.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/print_json.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
-#include "harness/nightly/baseline.h"
+#include "harness/io/message.h"
+#include "harness/nightly/comparison.h"
 #include "harness/nightly/history.h"
+#include "reports/text.h"
 
 namespace ddem::harness {
 namespace {
@@ -16,33 +23,64 @@ namespace {
 struct BaselineOptions {
   std::vector<std::string> folders;
   std::string file = "ddem-baseline.json";
+  bool force = false;
 };
 
 int update_baseline(const BaselineOptions& o) {
+  std::vector<std::filesystem::path> inputs;
+  for (const std::string& folder : o.folders) inputs.push_back(std::filesystem::path(folder) / "summary.json");
+  claim_outputs({{o.file, OutputKind::baseline}}, inputs, o.force);
   std::vector<std::vector<reports::Verdict>> nights;
   for (const std::string& folder : o.folders) nights.push_back(nightly::read_summary(folder).verdicts);
   std::vector<std::string> left_out;
   const nightly::Baseline baseline = nightly::baseline_of(nights, left_out);
-  for (const std::string& key : left_out) fmt::print("left out, it did not pass: {}\n", key);
+  if (!baseline.empty()) write_file(o.file, nightly::baseline_text(baseline));
+  for (const std::string& key : left_out) fmt::print("left out, it did not pass: {}\n", reports::clean_utf8(key));
   if (baseline.empty()) throw InputError("nothing that passed: no baseline is written");
-  write_file(o.file, nightly::baseline_text(baseline));
   fmt::print("{}: {} metrics of {} run{}\n", o.file, baseline.size(), nights.size(),
              nights.size() == 1 ? "" : "s");
   return static_cast<int>(ExitCode::done);
 }
 
-int compare(const std::string& folder, const std::string& baseline) {
-  std::vector<reports::Verdict> verdicts = nightly::read_summary(folder).verdicts;
-  fmt::print("{}", nightly::comparison_text(nightly::compare(verdicts, nightly::read_baseline(baseline))));
+struct CompareOptions {
+  std::string folder, baseline;
+  bool partial = false, json = false;
+};
+
+int compare(const CompareOptions& o) {
+  std::vector<reports::Verdict> verdicts = nightly::read_summary(o.folder).verdicts;
+  const nightly::Selected none = [](const std::string&) { return false; };
+  const auto comparisons = nightly::compare(verdicts, nightly::read_baseline(o.baseline), o.partial ? none : nightly::Selected{});
+  if (o.json)
+    print_json(nightly::comparison_json(comparisons));
+  else
+    fmt::print("{}", reports::clean_utf8(nightly::comparison_text(comparisons)));
+  const bool nothing = nightly::measured_nothing(comparisons);
+  if (nothing) message("{}: not one metric was measured: nothing was compared", o.folder);
   const bool failed = std::any_of(verdicts.begin(), verdicts.end(),
                                   [](const auto& v) { return reports::is_failure(v.state); });
-  return static_cast<int>(failed ? ExitCode::verdict_failed : ExitCode::done);
+  return static_cast<int>(failed || nothing ? ExitCode::verdict_failed : ExitCode::done);
+}
+
+/// UTC, as nights have it.
+std::string now() {
+  const std::time_t seconds = std::time(nullptr);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds));
+}
+
+/// On standard error: whoever put them there may have meant them.
+void tell_of_other_files(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& file : nightly::files_beside_nights(folder)) names.push_back(file.filename().string());
+  if (!names.empty()) message("{}: not called as nights, left alone: {}", folder, fmt::join(names, ", "));
 }
 
 int history(const std::string& folder, bool regressions, bool all) {
+  tell_of_other_files(folder);
   const std::vector<nightly::Night> nights = nightly::read_history(folder);
   const std::vector<nightly::Trend> trends = nightly::trends_of(nights);
-  fmt::print("{}", nightly::trends_text(nights, trends, all));
+  fmt::print("{}", reports::clean_utf8(nightly::trends_text(nights, trends, all)));
+  for (const std::string& complaint : nightly::clock_complaints(nights, now())) fmt::print("{}\n", reports::clean_utf8(complaint));
   const bool worse = std::any_of(trends.begin(), trends.end(), [](const nightly::Trend& t) {
     return t.regressed || reports::is_failure(t.state);
   });
@@ -66,21 +104,22 @@ void add_baseline_command(CLI::App& app, Action& action) {
       ->required()
       ->expected(1, -1);
   update->add_option("-o,--output", o->file, "the baseline")->capture_default_str();
+  update->add_flag("--force", o->force, "replace a file, too, that ddem did not write");
   update->callback([o, &action] { action = [o] { return update_baseline(*o); }; });
 }
 
 void add_compare_command(CLI::App& app, Action& action) {
-  auto folder = std::make_shared<std::string>(), baseline = std::make_shared<std::string>();
+  auto o = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "A run against a baseline, or against another run");
   command->footer(
-      "REGRESSED: inside the accuracy band, but further from right than the baseline by more than its "
-      "noise.\n"
-      "Exit code 1 if a metric regressed or a verdict fails.");
-  command->add_option("DIR", *folder, "folder of a run")->required();
-  command->add_option("BASELINE", *baseline, "a baseline's file, or the folder of an earlier run")
-      ->required();
-  command->callback(
-      [folder, baseline, &action] { action = [folder, baseline] { return compare(*folder, *baseline); }; });
+      "REGRESSED: inside the accuracy band, but further from right than the baseline by more than its noise.\n"
+      "MISSING: the baseline has it and the run has not, or in another unit.  NO_BASELINE: the run alone has it.\n"
+      "Exit code 1 if a metric regressed or is missing, a verdict fails, or nothing at all was measured.");
+  command->add_option("DIR", o->folder, "folder of a run")->required();
+  command->add_option("BASELINE", o->baseline, "a baseline's file, or the folder of an earlier run")->required();
+  command->add_flag("--partial", o->partial, kPartialHelp);
+  command->add_flag("--json", o->json, "print metrics, states (how many of each) and all comparisons as JSON");
+  command->callback([o, &action] { action = [o] { return compare(*o); }; });
 }
 
 void add_history_command(CLI::App& app, Action& action) {
@@ -91,8 +130,8 @@ void add_history_command(CLI::App& app, Action& action) {
   command->footer(
       "Nights come from ddem validate --history DIR. Each metric is compared with the median of the nights "
       "before; what is\n"
-      "within three standard deviations of their scatter, or 1 % of its accuracy band, is no change; 20 % of "
-      "a wall time.");
+      "within three standard deviations of their scatter, or 1 % of its accuracy band, is no change; 20 % "
+      "of a wall time, or 0.3 s.");
   command->add_option("DIR", *folder, "folder of nights")->required();
   command->add_flag("--regressions", *regressions,
                     "exit code 1 if a metric got worse, or the last night failed");

@@ -1,6 +1,5 @@
 #include "harness/cli/output.h"
 
-#include "harness/io/atomic_file.h"
 #include "harness/io/hdf5.h"
 #include "harness/provenance/provenance.h"
 
@@ -18,8 +17,7 @@ void add_probe(SignalTable& table, const std::string& name, const std::vector<do
 }
 
 void write_signals_hdf5(const std::string& path, const SignalTable& table, const Scene& scene, const MoreGroups& more) {
-  AtomicFile atomic(path);
-  Hdf5File file = Hdf5File::create(atomic.temporary_path());
+  Hdf5File file = Hdf5File::create(path);
   {
     Hdf5Group root = file.root();
     root.set_attribute("scene", scene.source_text);
@@ -33,7 +31,6 @@ void write_signals_hdf5(const std::string& path, const SignalTable& table, const
     more(root);
   }
   file.close();
-  atomic.commit();
 }
 
 void write_outputs(const std::string& hdf5_path, const std::string& csv_path, const SignalTable& table, const Scene& scene,

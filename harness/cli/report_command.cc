@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "harness/campaign/report_file.h"
+#include "harness/cli/campaign_folder.h"
 #include "harness/cli/commands.h"
 #include "harness/io/errors.h"
 
@@ -13,11 +14,14 @@ namespace {
 
 struct Options {
   std::string folder, output;
+  bool force = false;
 };
 
 int run(const Options& o) {
   const reports::Report report = load_report(o.folder);
   const std::string& output = o.output.empty() ? o.folder : o.output;
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(output, o.folder, ignored)) check_drawable(output, report, o.force);
   try {
     write_report_files(output, draw_report(report));
   } catch (const std::invalid_argument& e) {  // what cannot be drawn was not written by ddem
@@ -39,7 +43,8 @@ void add_report_command(CLI::App& app, Action& action) {
       "Writes report.html, figures/*.svg and figures/*.csv. Runs nothing, and changes nothing unless "
       "results.h5 is whole.");
   command->add_option("DIR", o->folder, "folder that `ddem validate` wrote")->required();
-  command->add_option("-o,--output", o->output, "another folder for what is drawn (default: DIR)");
+  CLI::Option* output = command->add_option("-o,--output", o->output, "another folder for what is drawn (default: DIR)");
+  command->add_flag("--force", o->force, "draw over the report of another campaign")->needs(output);
   command->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -6,80 +6,67 @@
 
 #include "harness/cli/commands.h"
 #include "harness/cli/output.h"
+#include "harness/cli/print_json.h"
 #include "harness/cli/run_hdf5.h"
+#include "harness/cli/run_summary.h"
 #include "harness/cli/run_xdmf.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/cli/xdmf.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
+#include "harness/io/message.h"
 #include "harness/io/progress.h"
 #include "harness/run/run_json.h"
+#include "harness/solvers/find_solver.h"
 
 namespace ddem::harness {
 namespace {
 
 struct Options {
-  std::string scene, hdf5, csv;
-  std::optional<int> snapshots;
-  bool json = false;
+  std::string scene, hdf5, csv, solver = "builtin";
+  std::optional<int> snapshots, ranks;
+  bool json = false, force = false;
 };
 
 constexpr std::size_t kProgressUnits = 200;
 constexpr int kEnergySamples = 200;
 
-void print_summary(const DemRun& run) {
-  const SimulationResult& r = run.result;
-  fmt::print("{} discs, {} bonds; {} steps of {:.4g} s ({:.3g} of the critical {:.4g} s) in {:.3g} s\n", run.assembly.size(),
-             run.assembly.bonds.size(), r.steps_done, run.time_step, run.time_step / run.critical_time_step,
-             run.critical_time_step, r.wall_seconds);
-  if (r.energy_drift) fmt::print("energy drift {:.3g}\n", *r.energy_drift);
-  if (!run.measurement) return;
-  for (const PairSpeed& p : run.measurement->speed.pairs) {
-    const std::string pair = fmt::format("{} to {}, {:.4g} mm", run.layout.probes[p.from].name, run.layout.probes[p.to].name, p.distance * 1e3);
-    if (p.speed.ok()) {
-      fmt::print("  {}: {:.5g} us, {:.5g} m/s\n", pair, p.delay.value() * 1e6, p.speed.value());
-    } else {
-      fmt::print("  {}: no velocity: {}\n", pair, p.speed.error().reason);
-    }
-  }
-  const auto& speed = run.measurement->speed.speed;
-  if (speed.ok()) {
-    fmt::print("wave speed {:.5g} m/s, standard deviation {:.2g} m/s over {} pairs\n", speed.value().mean,
-               speed.value().stddev.value_or(0.0), run.measurement->speed.good_pairs);
-  } else {
-    fmt::print("no wave speed: {}\n", speed.error().reason);
-  }
-}
-
 /// On standard error, that nobody takes a run with new contacts for one of bonds alone.
 void tell_of_contacts(const DemRun& run) {
   if (const auto& c = run.result.new_contacts) {
-    fmt::print(stderr, "ddem: new contacts from step {} on (t = {:.4g} s), {} at once at most\n", c->first_step,
-               static_cast<double>(c->first_step) * run.time_step, c->most);
+    message("ddem: new contacts from step {} on (t = {:.4g} s), {} at once at most", c->first_step,
+            static_cast<double>(c->first_step) * run.time_step, c->most);
   }
 }
 
 int run(const Options& o) {
   const Scene scene = load_scene(o.scene, Purpose::simulation);
   const std::string xdmf = o.hdf5.empty() || !o.snapshots ? std::string() : xdmf_path(o.hdf5).string();
-  check_outputs({o.hdf5, o.csv, xdmf}, scene);
-  Progress progress(kProgressUnits, "simulating");
+  claim_outputs({{o.hdf5, OutputKind::run_hdf5}, {o.csv, OutputKind::signals_csv}, {xdmf, OutputKind::xdmf}}, files_read_by(scene),
+                o.force);
+  const std::shared_ptr<const Solver> solver = find_solver(o.solver, o.ranks);
+  const bool snapshots = solver->abilities().snapshots && scene.time.integrator != Integrator::exact;
+  Progress progress(kProgressUnits);
   std::size_t shown = 0;
   RunOptions options;
+  options.on_stage = [&](std::string stage) { progress.set_label(std::move(stage)); };
   options.on_progress = [&](double done) {
     const auto units = static_cast<std::size_t>(done * kProgressUnits);
     if (units > shown) progress.advance(units - std::exchange(shown, units));
     return true;
   };
   if (!o.hdf5.empty()) {
-    options.snapshots = o.snapshots.value_or(scene.time.integrator == Integrator::exact ? 0 : 1);
+    options.snapshots = o.snapshots.value_or(snapshots ? 1 : 0);
     options.energy_samples = kEnergySamples;
   }
+  options.solver = solver.get();
+  options.as_text = !o.csv.empty();
   const DemRun run = run_scene(scene, options);
-  for (const std::string& warning : run.warnings) fmt::print(stderr, "ddem: warning: {}\n", warning);
+  for (const std::string& warning : run.warnings) message("ddem: warning: {}", warning);
   tell_of_contacts(run);
-  if (o.json) fmt::print("{}", to_text(run_json(run)));
   if (run.result.breakdown) {
+    if (o.json) print_json(run_json(run));
     const Breakdown& b = *run.result.breakdown;
     const BreakdownText text = describe(b, scene);
     throw SolverError(fmt::format("{}: {} at step {} (t = {:.4g} s), disc {}; {}", o.scene, text.what, b.step,
@@ -94,7 +81,12 @@ int run(const Options& o) {
     if (!xdmf.empty()) write_points(root, run);
   });
   if (!xdmf.empty()) write_file(xdmf, xdmf_text(run, std::filesystem::path(o.hdf5).filename().string()));
-  if (!o.json) print_summary(run);
+  if (o.json) {
+    print_json(run_json(run));
+  } else {
+    print_steps(run);
+    if (run.measurement) print_speeds(*run.measurement, run.layout);
+  }
   return static_cast<int>(ExitCode::done);
 }
 
@@ -105,12 +97,16 @@ void add_run_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "One DEM or DDEM simulation of a scene");
   command->footer("Example: ddem run bar.toml --signals bar.csv\nScenes to start from: harness/scenes/*.toml");
   command->add_option("SCENE", o->scene, "scene file (TOML)")->required();
-  command->add_option("-o,--output", o->hdf5, "write signals, energies, fields, scene and provenance to this HDF5 file");
+  CLI::Option* output = command->add_option("-o,--output", o->hdf5, "write signals, energies, fields, scene and provenance to this HDF5 file");
   command->add_option("--snapshots", o->snapshots,
                       "fields of all discs at so many times, the last at the end (1; none with integrator = \"exact\"); with -o FILE.h5 "
                       "also FILE.xdmf, for ParaView")
-      ->check(CLI::Range(1, 10000));
+      ->check(CLI::Range(1, 10000))
+      ->needs(output);
   command->add_option("--signals", o->csv, "write the probes' signals to this CSV file");
+  command->add_option("--solver", o->solver, kSolverHelp)->capture_default_str();
+  command->add_option("--ranks", o->ranks, kRanksHelp)->check(CLI::Range(1, 100000));
+  command->add_flag("--force", o->force, "replace files, too, that ddem did not write");
   command->add_flag("--json", o->json, "print the result as JSON");
   command->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -2,7 +2,6 @@
 // A scene file named on the command line.
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "harness/scene/read_scene.h"
@@ -12,8 +11,7 @@ namespace ddem::harness {
 /// Reads it for that purpose; throws InputError with every violation.
 Scene load_scene(const std::filesystem::path& path, Purpose purpose);
 
-/// Refuses outputs before anything is computed: a folder that does not exist (MachineError); the same file twice, or one
-/// that the scene reads: the scene itself, its discs, bonds or states (InputError). Empty paths: no output.
-void check_outputs(const std::vector<std::string>& paths, const Scene& scene);
+/// The scene itself, its discs, bonds, states and mesh: what no output may replace.
+std::vector<std::filesystem::path> files_read_by(const Scene& scene);
 
 }  // namespace ddem::harness

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "harness/cli/commands.h"
+#include "harness/cli/print_json.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/io/errors.h"
 #include "harness/run/run_json.h"
@@ -24,12 +25,12 @@ std::vector<double> lengths_of(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     double metres = 0.0;
     const char* const end = text.data() + text.size();
-    if (const auto [stop, problem] = std::from_chars(text.data(), end, metres); problem == std::errc{} && stop == end) {
-      values.push_back(metres);
-      continue;
-    }
-    const Quantity q = parse_quantity(text, Dimension::length);
-    if (!q.si) throw InputError(fmt::format("--wavelength {}: {}; write {}", text, q.problem, quantity_examples(Dimension::length)));
+    const auto [stop, error] = std::from_chars(text.data(), end, metres);
+    const bool is_plain = stop == end && error != std::errc::invalid_argument;
+    const Quantity q = is_plain ? Quantity{metres, ""} : parse_quantity(text, Dimension::length);
+    std::string problem = q.si ? magnitude_problem(*q.si, Dimension::length) : q.problem;
+    if (is_plain && error != std::errc{}) problem = "beyond what a number can be";
+    if (!problem.empty()) throw InputError(fmt::format("--wavelength {}: {}; write {}", text, problem, quantity_examples(Dimension::length)));
     values.push_back(*q.si);
   }
   return values;
@@ -42,9 +43,9 @@ void print_row(const char* what, const std::string& value, const std::string& me
 std::string number(double value) { return fmt::format("{:.5g}", value); }
 
 void print_steps(const SceneStability& s) {
-  print_row("critical step of rigid discs", number(s.dem_critical_step) + " s", "2/omega_max of the bonded discs (Lanczos)");
+  print_row("critical step of rigid discs", format_quantity(s.dem_critical_step, "s", 5), "2/omega_max of the bonded discs (Lanczos)");
   const auto critical = [&](const std::string& why) {
-    print_row("critical step of the scheme", s.critical.step ? number(*s.critical.step) + " s" : "none",
+    print_row("critical step of the scheme", s.critical.step ? format_quantity(*s.critical.step, "s", 5) : "none",
               s.critical.step ? fmt::format("{:.4g} of that: {}", *s.critical.step / s.dem_critical_step, why) : why);
   };
   switch (s.critical.bound) {
@@ -53,7 +54,7 @@ void print_steps(const SceneStability& s) {
       break;
     case StepBound::flip: critical("above it the strains of successive steps alternate in sign and grow"); break;
     case StepBound::fixed_point: critical("the strains do not settle at any step: stiffen the discs, or use scheme = \"implicit\""); break;
-    case StepBound::feeding: critical("an even number of evaluations overshoots and adds energy: use an odd one, or less relaxation"); break;
+    case StepBound::feeding: critical("an even number of evaluations overshoots in some strains, and may add energy: an odd one never does"); break;
   }
 }
 
@@ -66,11 +67,16 @@ void print_softness(const SceneStability& s) {
   print_row("k_n/E_p", number(s.softness), "softness of the discs");
   if (!lagged) return;
   print_row("largest stable k_n/E_p", number(*s.softness_limit), "at vanishing steps: the fixed point's limit");
-  print_row("   at this step", s.softness_limit_at_step ? number(*s.softness_limit_at_step) : "none",
-            s.softness_limit_at_step ? "a smaller step allows up to the number above" : "lower the step first");
+  const auto& limit = s.softness_limit_at_step;
+  if (limit && limit->at_most > limit->at_least) {
+    print_row("   at this step, at least", number(limit->at_least), "below it no strain is overshot by the even number of evaluations");
+    print_row("   at this step, at most", number(limit->at_most), "beyond it strains alternate and grow");
+  } else {
+    print_row("   at this step", limit ? number(limit->at_least) : "none", limit ? "a smaller step allows up to the number above" : "lower the step first");
+  }
 }
 
-void print_growth_without_energy(const SceneStability& s) {
+void print_flutter(const SceneStability& s) {
   if (s.has_energy()) return;
   fmt::print("The normal-only correction with shear stiffness is the derivative of no energy: vibrations may grow by themselves.\n");
   if (s.flutter && s.flutter->frequency) {
@@ -86,6 +92,10 @@ void print_growth_without_energy(const SceneStability& s) {
   } else {
     print_row("flutter", "not sought", "the hexagonal lattice has none");
   }
+}
+
+void print_growth(const SceneStability& s) {
+  if (s.step_growth) print_row("growth a step", fmt::format("{:+.3g}", *s.step_growth), "largest |z| - 1 of the eigenvalues of the very step");
   if (s.noise) {
     print_row("noise in a run", s.noise->diverged ? "diverged" : fmt::format("{:+.3g}", s.noise->growth),
               fmt::format("growth a step after {} steps (below {:.2g} is none)", s.noise->steps, s.noise->resolution));
@@ -102,9 +112,9 @@ void print_waves(const SceneStability& s) {
   if (s.waves.empty()) return;
   fmt::print("\nWaves along x at this step ({}):\n", s.waves.front().exact ? "exact Bloch waves of the infinite lattice"
                                                                            : "long waves, from static moduli, first order in the lag");
-  fmt::print("{:>14} {:>9} {:>14} {:>12} {:>14} {:>14}\n", "wavelength (m)", "wave", "omega (rad/s)", "speed (m/s)", "|z|-1 a step", "a period");
+  fmt::print("{:>14} {:>9} {:>14} {:>12} {:>14} {:>14}\n", "wavelength", "wave", "omega (rad/s)", "speed (m/s)", "|z|-1 a step", "a period");
   for (const WaveGrowth& w : s.waves) {
-    fmt::print("{:>14.5g} {:>9} {:>14.5g} {:>12.5g} {:>+14.3e} {:>+13.3f}%\n", w.wavelength, w.wave, w.frequency, w.phase_speed(), w.growth,
+    fmt::print("{:>14} {:>9} {:>14.5g} {:>12.5g} {:>+14.3e} {:>+13.3f}%\n", format_quantity(w.wavelength, "m", 5), w.wave, w.frequency, w.phase_speed(), w.growth,
                100.0 * w.growth_per_period(s.time_step));
   }
   if (s.deformation.scheme == Scheme::lagged) {
@@ -112,21 +122,35 @@ void print_waves(const SceneStability& s) {
   }
 }
 
+void print_verdict(const SceneStability& s) {
+  fmt::print("\nAt its step of {}, {:.4g} of the critical step of rigid discs, the scene is ", format_quantity(s.time_step, "s", 5),
+             s.time_step / s.dem_critical_step);
+  switch (s.verdict()) {
+    case Verdict::stable: fmt::print("stable.\n"); break;
+    case Verdict::unstable:
+      fmt::print("UNSTABLE:\n");
+      for (const std::string& why : s.instabilities()) fmt::print("  {}\n", why);
+      break;
+    case Verdict::undecided:
+      fmt::print("UNDECIDED:\n  it is too large for the eigenvalues of its step, and noise in a run of {} steps cannot show growth below {:.2g} a step.\n"
+                 "  Growth of {:.2g} a step would show in {:.2g} steps.\n",
+                 s.noise->steps, s.noise->detectable, s.slowest_growth, s.steps_needed());
+  }
+}
+
 int stability(const Options& o) {
   const SceneStability s = scene_stability(load_scene(o.scene, Purpose::statics), lengths_of(o.wavelengths));
   if (o.json) {
-    fmt::print("{}", to_text(stability_json(s)));
+    print_json(stability_json(s));
     return static_cast<int>(ExitCode::done);
   }
   fmt::print("{} discs, {} bonds\n", s.discs, s.bonds);
   print_steps(s);
   print_softness(s);
-  print_growth_without_energy(s);
+  print_flutter(s);
+  print_growth(s);
   print_waves(s);
-  const auto instabilities = s.instabilities();
-  fmt::print("\nAt its step of {:.5g} s, {:.4g} of the critical step of rigid discs, the scene is {}\n", s.time_step,
-             s.time_step / s.dem_critical_step, instabilities.empty() ? "stable." : "UNSTABLE:");
-  for (const std::string& why : instabilities) fmt::print("  {}\n", why);
+  print_verdict(s);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -6,13 +6,17 @@
 #include <span>
 
 #include "harness/cli/commands.h"
+#include "harness/cli/print_json.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/io/atomic_file.h"
+#include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
+#include "harness/io/message.h"
 #include "harness/model/assemble.h"
 #include "harness/model/packing_report.h"
 #include "harness/run/run_json.h"
 #include "harness/scene/csv.h"
+#include "harness/scene/units.h"
 
 namespace ddem::harness {
 namespace {
@@ -25,40 +29,44 @@ struct ModuliOptions {
 int moduli(const ModuliOptions& o) {
   const SceneModuli m = scene_moduli(load_scene(o.scene, Purpose::statics));
   if (o.json) {
-    fmt::print("{}", to_text(moduli_json(m)));
+    print_json(moduli_json(m));
     return 0;
   }
-  fmt::print("{} discs, {} bonds, coordination {:.3f}, solid fraction {:.4f}, bulk density {:.6g} kg/m3\n{}\n", m.discs, m.bonds,
-             m.coordination, m.solid_fraction, m.bulk_density, m.method);
+  fmt::print("{} discs, {} bonds, coordination {:.3f}, solid fraction {:.4f}, bulk density {:.6g} kg/m3\n", m.discs, m.bonds,
+             m.coordination, m.solid_fraction, m.bulk_density);
+  if (m.rattlers > 0) fmt::print("{} rattlers, which no wave moves: {:.6g} kg/m3 move\n", m.rattlers, m.moving_density);
+  fmt::print("{}\n", m.method);
   if (const auto iso = m.isotropic()) {
     const auto& c = *m.stiffness;
-    fmt::print("stiffness (Pa; xx, yy, xy)\n");
-    for (int i = 0; i < 3; ++i) fmt::print("  {:14.7e} {:14.7e} {:14.7e}\n", c(i, 0), c(i, 1), c(i, 2));
-    fmt::print("E = {:.7e} Pa, G = {:.7e} Pa, K = {:.7e} Pa, nu = {:.7f} (isotropic part, plane)\n", iso->young(), iso->shear,
-               iso->bulk, iso->poisson());
+    fmt::print("stiffness (xx, yy, xy)\n");
+    const auto pascal = [](double value) { return format_quantity(value, "Pa", 8); };
+    for (int i = 0; i < 3; ++i) fmt::print("  {:>16} {:>16} {:>16}\n", pascal(c(i, 0)), pascal(c(i, 1)), pascal(c(i, 2)));
+    fmt::print("E = {}, G = {}, K = {}, nu = {:.7f} (isotropic part, plane)\n", pascal(iso->young()), pascal(iso->shear),
+               pascal(iso->bulk), iso->poisson());
     const DirectionalSpeeds s = *m.speeds();
     fmt::print("waves along x: bar {:.6g} m/s, shear {:.6g} m/s, P {:.6g} m/s\n", s.bar, s.s, s.p);
   }
   if (m.strip) {
-    fmt::print("free strip: EA = {:.6g} N, bar {:.6g} m/s, lateral contraction {:.4f}\n", m.strip->axial_stiffness,
-               m.strip->bar_velocity(), m.strip->lateral_contraction);
+    const auto& contraction = m.strip->lateral_contraction;
+    fmt::print("free strip: EA = {}, bar {:.6g} m/s, {}\n", format_quantity(m.strip->axial_stiffness, "N"), m.strip->bar_velocity(),
+               contraction ? fmt::format("lateral contraction {:.4f}", *contraction) : "a single row: no lateral contraction");
   }
   return 0;
 }
 
 struct PackOptions {
   std::string scene, output;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 int pack(const PackOptions& o) {
   const Scene scene = load_scene(o.scene, Purpose::packing);
-  check_outputs({o.output}, scene);
+  claim_outputs({{o.output, OutputKind::packing_csv}}, files_read_by(scene), o.force);
   const Packing p = build_packing(scene);
   const PackingReport report = report_on_packing(scene, p);
   write_file(o.output, csv_text("x,y,radius", std::array<std::span<const double>, 3>{p.x, p.y, p.radius}));
-  fmt::print(stderr, "{}", packing_text(report));
-  if (o.json) fmt::print("{}", to_text(packing_json(report)));
+  say(packing_text(report));
+  if (o.json) print_json(packing_json(report));
   return 0;
 }
 
@@ -80,6 +88,7 @@ void add_pack_command(CLI::App& app, Action& action) {
   command->footer("Example: ddem pack bar.toml -o discs.csv");
   command->add_option("SCENE", o->scene, "scene file (TOML); [assembly] alone is enough")->required();
   command->add_option("-o,--output", o->output, "CSV file to write")->required();
+  command->add_flag("--force", o->force, "replace files, too, that ddem did not write");
   command->add_flag("--json", o->json, "print what the packing is like as JSON");
   command->callback([o, &action] { action = [o] { return pack(*o); }; });
 }

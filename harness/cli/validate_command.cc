@@ -2,125 +2,150 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <thread>
 
+#include "harness/campaign/planned_campaign.h"
 #include "harness/campaign/read_campaign.h"
+#include "harness/campaign/reproduce.h"
 #include "harness/campaign/write_results.h"
+#include "harness/cli/campaign_folder.h"
 #include "harness/cli/campaign_output.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/print_json.h"
 #include "harness/io/errors.h"
 #include "harness/io/folder_lock.h"
+#include "harness/io/message.h"
 #include "harness/io/progress.h"
 #include "harness/nightly/unit_file.h"
+#include "harness/solvers/find_solver.h"
+#include "reports/text.h"
 
 namespace ddem::harness {
 namespace {
 
+constexpr const char* kStatics = "statics";  // the study
+
 struct Options {
-  std::string campaign, folder = "ddem-report", shard, only, baseline, history;
+  std::string campaign, folder = "ddem-report", shard, only, baseline, history, solver = "builtin";
   int jobs = 0;
-  bool resume = false, plan = false, statics = false;
+  std::optional<int> ranks;
+  bool resume = false, plan = false, list = false, json = false, statics = false, force = false, partial = false;
 };
 
-/// A study's case.
-bool is_study(const std::string& id) {
-  const auto begins = [&id](const char* study) { return id.starts_with(study); };
-  constexpr std::array studies{"discrimination", "schemes/", "stability-map/", "dispersion/", "sizes/", "calibration/"};
-  return std::any_of(studies.begin(), studies.end(), begins);
-}
-
-/// Keeps the model and ratio of one case, so that the whole of what it compares is run.
-void restrict_to(StripCampaign& campaign, const std::string& id) {
-  StripCampaign narrowed = campaign;
-  narrowed.models.clear();
-  narrowed.stiffness_ratios.clear();
-  for (const Model m : campaign.models) {
-    for (const double ratio : campaign.stiffness_ratios) {
-      const std::string tail = fmt::format("/{}", material_slug(m, ratio));
-      if (!id.ends_with(tail)) continue;
-      narrowed.models = {m};
-      narrowed.stiffness_ratios = {ratio};
-    }
-  }
-  if (is_study(id)) {  // models and ratios of its own
-    narrowed.models = {Model::dem};
-    narrowed.stiffness_ratios = {campaign.stiffness_ratios.front()};
-  }
-  if (narrowed.models.empty()) {
-    throw InputError("--only " + id + ": no such case; the report and summary.json name them, such as long-wave/random/dem/kt0.30");
-  }
-  campaign = narrowed;
-}
-
-/// What steps in time cannot be asked for.
-void leave_statics_alone(const Options& o, CampaignSpec& spec) {
-  if (!spec.with_strip) throw InputError(o.campaign + ": no [strip]: --static is for its moduli; for those of a scene: ddem moduli SCENE.toml");
-  if (!o.only.empty() && !o.only.starts_with("static/")) {
+CampaignSpec spec_from(const Options& o) {
+  CampaignSpec spec = o.campaign.empty() ? default_campaign() : read_campaign(o.campaign);
+  spec.only = o.only;
+  if (o.solver != builtin_solver().name()) spec.solver = o.solver;
+  spec.ranks = o.ranks.value_or(0);
+  if (o.campaign.empty() && !spec.solver.empty()) spec.tables["solvers"] = {{"names", {spec.solver}}};  // beside the built-in one, too
+  if (!o.statics) return spec;
+  if (!spec.has("strip")) throw InputError(o.campaign + ": no [strip]: --static is for its moduli; for those of a scene: ddem moduli SCENE.toml");
+  if (!o.only.empty() && !o.only.starts_with("static")) {
     throw InputError("--only " + o.only + ": steps in time, which --static leaves out; its cases are static/..., such as static/random/dem/kt0.30");
   }
-  spec.cases.clear();
-  spec.with_waves = spec.with_fem = spec.with_studies = false;
-}
-
-CampaignSpec spec_from(const Options& o) {
-  CampaignSpec spec;
-  if (!o.campaign.empty()) {
-    CampaignFile file = read_campaign(o.campaign);
-    spec.strip = file.strip;
-    spec.with_strip = file.has_strip;
-    spec.cases = std::move(file.cases);
-  }
-  spec.only = o.only;
-  if (o.only.starts_with("case/")) {
-    std::erase_if(spec.cases, [&](const UserCase& c) { return "case/" + c.id != o.only; });
-    spec.with_strip = false;
-  } else if (!o.only.empty()) {
-    spec.cases.clear();
-    restrict_to(spec.strip, o.only);
-    spec.with_studies = is_study(o.only);
-  }
-  if (o.statics) leave_statics_alone(o, spec);
+  if (o.only.empty()) spec.only = kStatics;
   return spec;
 }
 
-/// A run that goes on, or shares a plan with others, must have the very plan.
+/// A run that goes on, or shares a plan with others, must have the very plan; one that starts anew must not cost the report
+/// of another campaign.
 void settle_plan(const Options& o, const nightly::Plan& plan) {
-  if (nightly::has_plan(o.folder) && (o.resume || !o.shard.empty())) {
-    if (const std::string d = nightly::difference(nightly::read_plan(o.folder), plan); !d.empty()) {
-      throw InputError(fmt::format("{}: holds another campaign: {}; give another folder by -o, or run it anew without --resume and --shard",
-                                   o.folder, d));
-    }
-    return;
+  if (nightly::holds_plan(o.folder, plan) && (o.resume || !o.shard.empty())) return;
+  if (nightly::has_plan(o.folder) && (o.resume || !o.shard.empty()) && !o.force) {
+    throw InputError(fmt::format("{}: holds another campaign: {}; give another folder by -o, or --force: results that still fit are kept",
+                                 o.folder, nightly::difference(nightly::read_plan(o.folder), plan)));
   }
+  check_replaceable(o.folder, plan, o.force);
   nightly::write_plan(o.folder, plan);
 }
 
+/// What goes on with this run.
+std::string resume_command(const Options& o, const CampaignSpec& spec) {
+  std::string command = validate_command(spec, o.campaign, spec.only);
+  const auto add = [&command](const char* option, const std::string& value) {
+    if (!value.empty()) command += fmt::format(" {} {}", option, shell_word(value));
+  };
+  add("--shard", o.shard);
+  add("--baseline", o.baseline);
+  if (o.partial) command += " --partial";
+  add("--history", o.history);
+  add("-o", o.folder);
+  return command + " --resume";
+}
+
+/// Over what is left of the bar.
+void say_how_to_go_on(const Options& o, const CampaignSpec& spec) {
+  wipe_progress();
+  message("interrupted; what is done is kept, go on with: {}", resume_command(o, spec));
+}
+
+/// A full disk ends a run as an interruption does.
+CampaignResults run_or_say_how_to_go_on(const PlannedCampaign& campaign, const nightly::RunOptions& options, const std::function<void()>& say) {
+  try {
+    return campaign.run(options);
+  } catch (const MachineError&) {
+    say();
+    throw;
+  }
+}
+
 int end_of_shard(const Options& o, const CampaignResults& results, std::size_t units) {
-  for (const auto& [id, reason] : results.failed_units) fmt::print("ERROR: {}: {}\n", id, reason);
+  std::size_t errors = 0;
+  for (const auto& [id, reason] : results.failed_units) {
+    const bool skipped = nightly::was_skipped(reason);
+    fmt::print("{}: {}: {}\n", skipped ? "SKIPPED" : "ERROR", id, reports::clean_utf8(nightly::reason_of(reason)));
+    errors += skipped ? 0 : 1;
+  }
   fmt::print("shard {}: {} units, {} without a result; when all shards are there: ddem merge DIR... -o DIR\n", o.shard, units,
              results.failed_units.size());
-  return static_cast<int>(results.failed_units.empty() ? ExitCode::done : ExitCode::verdict_failed);
+  return static_cast<int>(errors == 0 ? ExitCode::done : ExitCode::verdict_failed);
+}
+
+Json json_of(const std::vector<StudyListing>& listed) {
+  Json list = Json::array();
+  for (const StudyListing& s : listed) list.push_back({{"id", s.id}, {"title", s.title}, {"needs", s.needs}, {"cases", s.cases}, {"seconds", s.seconds}});
+  return {{"studies", list}};
+}
+
+/// What there is, what it needs, and how long it takes on this machine.
+int list(const Options& o) {
+  std::vector<StudyListing> listed = list_studies(spec_from(o), {});
+  const double cores = std::max(1u, std::thread::hardware_concurrency());
+  for (StudyListing& s : listed) s.seconds /= cores;
+  if (o.json) {
+    print_json(json_of(listed));
+    return static_cast<int>(ExitCode::done);
+  }
+  for (const StudyListing& s : listed) {
+    fmt::print("{}  {}; about {:.1f} s{}\n", s.id, s.title, s.seconds, s.needs.empty() ? "" : fmt::format("; needs units of {}", fmt::join(s.needs, ", ")));
+    for (const std::string& id : s.cases) fmt::print("    {}\n", id);
+  }
+  return static_cast<int>(ExitCode::done);
 }
 
 int run(const Options& o) {
   const nightly::Shard shard = o.shard.empty() ? nightly::Shard{} : nightly::parse_shard(o.shard);
   const CampaignSpec spec = spec_from(o);
+  const std::shared_ptr<const Solver> solver = find_solver(o.solver, o.ranks);
   if (!o.shard.empty() && (!o.baseline.empty() || !o.history.empty())) {
     throw InputError("--shard makes a part only: give --baseline and --history to ddem merge");
   }
-  Conclusion conclusion{o.folder, {}, o.history};
+  Conclusion conclusion{o.folder, {}, o.partial, o.history};
   if (!o.baseline.empty()) conclusion.baseline = nightly::read_baseline(o.baseline);
-  prepare_folder(o.folder);
-  const FolderLock lock(o.folder);
-
+  require_apart(o.folder, o.history);
   std::optional<Progress> progress;
   CampaignOptions options;
+  options.solver = solver.get();
   options.on_progress = [&](std::size_t done) { progress->advance(done); };
-  const PlannedCampaign campaign(spec, options);
+  const PlannedCampaign campaign(spec, options, o.campaign);
   const nightly::Plan& plan = campaign.plan();
+  prepare_folder(o.folder);
+  if (!o.history.empty()) prepare_folder(o.history);
+  const FolderLock lock(o.folder);
+
   settle_plan(o, plan);
   if (o.plan) {
     fmt::print("{}/plan.json: {} units\n", o.folder, plan.units.size());
@@ -137,15 +162,16 @@ int run(const Options& o) {
   const auto work = [&](bool first_time) {
     run.resume = o.resume || !first_time;
     progress.emplace(campaign.work(shard), o.statics ? "static solves" : "simulations");
-    const CampaignResults results = campaign.run(run);
+    const CampaignResults results = run_or_say_how_to_go_on(campaign, run, [&] { say_how_to_go_on(o, spec); });
     progress.reset();
     return o.shard.empty() ? conclude_campaign(campaign, results, conclusion) : end_of_shard(o, results, shard.size(plan.units.size()));
   };
-  return nightly::supervise(board, work, [&](std::size_t unit, const std::string& reason) {
-    fmt::print(stderr, "{}: {}\n", plan.units[unit].id, reason);
+  const auto give_up = [&](std::size_t unit, const std::string& reason) {
+    message("{}: {}", plan.units[unit].id, reason);
     nightly::write_unit(o.folder, {plan.units[unit].id, plan.units[unit].identity, {nullptr, reason}});
     run.given_up.push_back(unit);
-  });
+  };
+  return nightly::supervise(board, work, give_up, [&] { say_how_to_go_on(o, spec); });
 }
 
 }  // namespace
@@ -157,22 +183,33 @@ void add_validate_command(CLI::App& app, Action& action) {
                   "hexagonal and random, against static moduli, closed forms and finite elements. Exit code 1 if a verdict fails.\n"
                   "A campaign file has [strip] (see harness/campaigns/strip.toml), or [[case]] for scenes of your own\n"
                   "(see harness/campaigns/cases.toml), or both.\n"
-                  "Every result is a file below DIR/cases, whole or not there: what was interrupted goes on with --resume.");
+                  "Every result is a file below DIR/cases, whole or not there: what was interrupted goes on with --resume.\n"
+                  "The report of another campaign is never replaced without --force.");
   command->add_option("CAMPAIGN", o->campaign, "campaign file (TOML)");
-  command->add_option("-o,--output", o->folder, "folder for the report and results")->capture_default_str();
-  command->add_option("-j,--jobs", o->jobs, "simulations at a time (default: the machine's cores)")->check(CLI::Range(1, 1024));
-  command->add_option("--only", o->only, "one case of the report by its name, with all that it needs");
+  CLI::Option* output = command->add_option("-o,--output", o->folder, "folder for the report and results")->capture_default_str();
+  CLI::Option* jobs = command->add_option("-j,--jobs", o->jobs, "simulations at a time (default: the machine's cores)")->check(CLI::Range(1, 1024));
+  command->add_option("--only", o->only, "a study, a case of the report, or what the names of cases begin with (see --list): with all that it needs, and nothing else");
   command->add_flag("--static", o->statics,
                     "wave speeds without time steps: static moduli and Bloch limits of the strip's materials, in seconds; no waves, studies,\n"
                     "finite elements or [[case]]");
-  command->add_option("--baseline", o->baseline, "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
-  command->add_option("--history", o->history, "folder that gets one file of this run, and whose trends the report draws; see ddem history");
-  command->add_option("--shard", o->shard,
+  CLI::Option* solver = command->add_option("--solver", o->solver, kSolverHelp)->capture_default_str();
+  CLI::Option* ranks = command->add_option("--ranks", o->ranks, kRanksHelp)->check(CLI::Range(1, 100000));
+  CLI::Option* baseline = command->add_option("--baseline", o->baseline, "a file of ddem baseline update: what got worse beyond its noise is REGRESSED");
+  CLI::Option* history = command->add_option("--history", o->history, "folder that gets one file of this run, and whose trends the report draws; see ddem history");
+  CLI::Option* shard = command->add_option("--shard", o->shard,
                       "i/n: the units k of the campaign with k mod n = i - 1, into a folder of their own; then: ddem merge");
-  command->add_flag("--plan", o->plan, "write DIR/plan.json, the list of all units with their identities, and run nothing");
-  command->add_flag("--resume", o->resume,
+  CLI::Option* partial = command->add_flag("--partial", o->partial, kPartialHelp);
+  CLI::Option* force = command->add_flag("--force", o->force, kForceHelp);
+  partial->needs(baseline);
+  CLI::Option* plan = command->add_flag("--plan", o->plan, "write DIR/plan.json, the list of all units with their identities, and run nothing");
+  plan->excludes(jobs)->excludes(baseline)->excludes(history)->excludes(partial);
+  CLI::Option* resume = command->add_flag("--resume", o->resume,
                     "go on with an interrupted campaign: keep the results in the folder that are whole and of the same inputs and program");
-  command->callback([o, &action] { action = [o] { return run(*o); }; });
+  plan->excludes(resume);
+  CLI::Option* list_option = command->add_flag("--list", o->list, "say which studies and cases there are, what each needs and about how long it takes; run nothing");
+  for (CLI::Option* of_a_run : {output, plan, resume, jobs, solver, ranks, baseline, history, shard, force, partial}) list_option->excludes(of_a_run);
+  command->add_flag("--json", o->json, "with --list: as JSON")->needs(list_option);
+  command->callback([o, &action] { action = [o] { return o->list ? list(*o) : run(*o); }; });
 }
 
 }  // namespace ddem::harness

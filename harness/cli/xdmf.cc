@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "harness/io/errors.h"
+#include "harness/io/json.h"
 
 namespace ddem::harness {
 namespace {
@@ -20,9 +22,24 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+/// Readers drop blanks at the ends, line breaks among them.
+bool is_xml_text(const std::string& name) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
+  if (name.empty() || name.front() == ' ' || name.back() == ' ' || std::any_of(name.begin(), name.end(), is_control)) return false;
+  try {
+    [[maybe_unused]] const std::string valid = Json(name).dump();
+    return true;
+  } catch (const Json::exception&) {  // not UTF-8
+    return false;
+  }
+}
+
 }  // namespace
 
 std::filesystem::path xdmf_path(const std::filesystem::path& hdf5) {
+  if (!is_xml_text(hdf5.filename().string())) {
+    throw InputError(hdf5.string() + ": XDMF cannot name a file with control characters or bytes that are not UTF-8; choose another name");
+  }
   // A reader takes what follows the first colon for the place inside the file.
   if (hdf5.filename().string().find(':') != std::string::npos) {
     throw InputError(hdf5.string() + ": XDMF cannot name a file with a colon; choose another name");

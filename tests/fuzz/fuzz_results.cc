@@ -2,24 +2,10 @@
 #include <string>
 
 #include "harness/io/digest.h"
-#include "harness/io/errors.h"
 #include "harness/nightly/baseline.h"
 #include "harness/nightly/summary.h"
 #include "harness/nightly/unit_file.h"
 #include "tests/fuzz/fuzz.h"
-
-namespace {
-
-template <class Read>
-void refused_or_read(const Read& read) {
-  try {
-    read();
-  } catch (const ddem::harness::InputError& e) {
-    require(!e.messages().empty());
-  }
-}
-
-}  // namespace
 
 void fuzz(std::string_view text) {
   using namespace ddem::harness;

@@ -23,11 +23,12 @@ Criterion speed(State state) {
 std::vector<Verdict> one_of_each() {
   std::vector<Verdict> verdicts;
   for (const State state : {State::pass, State::skipped, State::fail, State::unstable_as_expected,
-                            State::error, State::regressed, State::unstable, State::no_baseline}) {
+                            State::error, State::regressed, State::unstable, State::no_baseline, State::missing}) {
     Verdict v{
         .case_id = std::string(to_string(state)), .title = "t", .state = state, .reason = "because <\x01>"};
     if (is_failure(state)) v.criteria = {speed(state)};
     v.reproduce = "./ddem run \"a & b.toml\"";
+    v.seconds = 0.25;
     verdicts.push_back(v);
   }
   return verdicts;
@@ -38,12 +39,14 @@ TEST(Junit, CountsAndMessagesAreRight) {
   ASSERT_TRUE(document.load_string(render_junit("default \"<suite>\"", one_of_each()).c_str()));
   const pugi::xml_node suite = document.child("testsuites").child("testsuite");
   EXPECT_STREQ(suite.attribute("name").value(), "default \"<suite>\"");
-  EXPECT_EQ(suite.attribute("tests").as_int(), 8);
-  EXPECT_EQ(suite.attribute("failures").as_int(), 3);  // fail, regressed, unstable
+  EXPECT_EQ(suite.attribute("tests").as_int(), 9);
+  EXPECT_EQ(suite.attribute("time").as_double(), 9 * 0.25);
+  EXPECT_EQ(suite.child("testcase").attribute("time").as_double(), 0.25);
+  EXPECT_EQ(suite.attribute("failures").as_int(), 4);  // fail, regressed, unstable, missing
   EXPECT_EQ(suite.attribute("errors").as_int(), 1);
   EXPECT_EQ(suite.attribute("skipped").as_int(), 2);  // skipped, no baseline
-  EXPECT_EQ(document.select_nodes("//testcase").size(), 8u);
-  EXPECT_EQ(document.select_nodes("//testcase/failure").size(), 3u);
+  EXPECT_EQ(document.select_nodes("//testcase").size(), 9u);
+  EXPECT_EQ(document.select_nodes("//testcase/failure").size(), 4u);
   EXPECT_EQ(document.select_nodes("//testcase/error").size(), 1u);
   EXPECT_EQ(document.select_nodes("//testcase/skipped").size(), 2u);
   const pugi::xml_node failure = document.select_node("//testcase[@name='FAIL']/failure").node();
@@ -75,7 +78,7 @@ TEST(Verdict, WorstComeFirstAndTheCountIsRight) {
   EXPECT_EQ(sorted[1]->state, State::fail);
   EXPECT_EQ(sorted.back()->state, State::pass);
   EXPECT_EQ(headcount(verdicts),
-            "2 of 8 passed, 1 ERROR, 1 FAIL, 1 UNSTABLE, 1 REGRESSED, 1 NO_BASELINE, 1 SKIPPED");
+            "2 of 9 passed, 1 ERROR, 1 FAIL, 1 UNSTABLE, 1 REGRESSED, 1 MISSING, 1 NO_BASELINE, 1 SKIPPED");
   EXPECT_EQ(headcount({{.state = State::pass}, {.state = State::unstable_as_expected}}), "2 of 2 passed");
 }
 

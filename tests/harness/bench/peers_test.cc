@@ -1,6 +1,6 @@
 // Other programs absent, present (scripts in their places, whose answers are known) and failing.
 
-#include "harness/bench/peers/peers.h"
+#include "harness/bench/peers.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,13 @@
 namespace ddem::harness::bench {
 namespace {
 
+const std::vector<PeerSize> kSizes{{682, 40, 3}, {200, 10, 1}};
+
+PeerPlan lammps() { return {"LAMMPS", "harmonic bonds", false, "lmp", "lammps", lammps_solver, kSizes}; }
+PeerPlan yade() { return {"Yade", "cohesive bonds", true, "yade", "yade", yade_solver, kSizes}; }
+
 /// The peer, with an executable script in its place.
-Peer played_by(Peer peer, const TemporaryFolder& folder, const std::string& body) {
+PeerPlan played_by(PeerPlan peer, const TemporaryFolder& folder, const std::string& body) {
   const auto path = folder.path() / peer.program;
   write_file(path, "#!/bin/sh\n" + body);
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
@@ -21,12 +26,10 @@ Peer played_by(Peer peer, const TemporaryFolder& folder, const std::string& body
   return peer;
 }
 
-const std::vector<PeerSize> kSizes{{682, 40, 3}, {200, 10, 1}};
-
 TEST(Peers, AbsentHasAReasonAndNoTimes) {
   int heard = 0;
-  std::vector<PeerPlan> plans{{lammps(), kSizes}, {yade(), kSizes}};
-  for (PeerPlan& plan : plans) plan.peer.program = "no-such-program-as-" + plan.peer.program;
+  std::vector<PeerPlan> plans{lammps(), yade()};
+  for (PeerPlan& plan : plans) plan.program = "no-such-program-as-" + plan.program;
   const Peers peers = time_peers(plans, [&] { ++heard; });
   EXPECT_EQ(heard, 4);
   EXPECT_TRUE(peers.times.empty());
@@ -51,22 +54,26 @@ const char* const kPlaysLammps = R"(if [ "$1" = -h ]; then
   exit 0
 fi
 grep -q '^run 40$\|^run 10$' "$2" || exit 7
-awk 'BEGIN { print "ITEM: ATOMS id x y" } /^Atoms/ { atoms = 1 } /^Velocities/ { atoms = 0 } atoms && NF == 6 { print $1, $4, $5 }' strip.data > end.txt
+for frame in 0 1; do
+  awk '/ atoms$/ { print "ITEM: NUMBER OF ATOMS"; print $1; print "ITEM: ATOMS id xu yu" }
+       /^Atoms/ { atoms = 1 } /^Velocities/ { atoms = 0 } atoms && NF == 6 { print $1, $4, $5 }' strip.data
+done > motion.txt
 echo 'Loop time of 0.002 on 1 procs for 40 steps with 682 atoms'
 )";
 const char* const kPlaysYade = R"(if [ "$1" = --version ]; then
   echo 'Yade version: 2030.01 '
   exit 0
 fi
-grep -q '^for step in range(40):\|^for step in range(10):' "$4" || exit 7
-awk '{ print 0, 0 }' discs.txt > end.txt
+grep -q '"steps": 40,\|"steps": 10,' strip.json || exit 7
+test "$4" = strip.py || exit 8
+yes '0 0 0' | head -n 2000 > motion.txt
 echo 'Welcome to Yade'
 echo 'Loop time 0.002 s'
 )";
 
 TEST(Peers, AreTimedByTheirOwnWord) {
   const TemporaryFolder folder("ddem-peers-test");
-  const Peers peers = time_peers({{played_by(lammps(), folder, kPlaysLammps), kSizes}, {played_by(yade(), folder, kPlaysYade), kSizes}}, [] {});
+  const Peers peers = time_peers({played_by(lammps(), folder, kPlaysLammps), played_by(yade(), folder, kPlaysYade)}, [] {});
   EXPECT_EQ(peers.reason, "");
   ASSERT_EQ(peers.times.size(), 4u);
   EXPECT_EQ(peers.times[0].program, "LAMMPS");
@@ -78,9 +85,9 @@ TEST(Peers, AreTimedByTheirOwnWord) {
 
 TEST(Peers, FailingIsAReasonAndTheOthersAreTimed) {
   const TemporaryFolder folder("ddem-peers-test"), another("ddem-peers-test");
-  const Peer failing = played_by(lammps(), folder, "[ \"$1\" = -h ] || echo 'ERROR: Unrecognized bond style' >&2\n[ \"$1\" = -h ]\n");
-  const Peer vague = played_by(yade(), folder, "echo 'Loop time soon s'\n");
-  const Peers peers = time_peers({{failing, kSizes}, {vague, kSizes}, {played_by(yade(), another, kPlaysYade), kSizes}}, [] {});
+  const PeerPlan failing = played_by(lammps(), folder, "[ \"$1\" = -h ] || echo 'ERROR: Unrecognized bond style' >&2\n[ \"$1\" = -h ]\n");
+  const PeerPlan vague = played_by(yade(), folder, "echo 'Loop time soon s'\n");
+  const Peers peers = time_peers({failing, vague, played_by(yade(), another, kPlaysYade)}, [] {});
   for (const char* said : {"exit code 1", "Unrecognized bond style", "its time cannot be read"}) {
     EXPECT_NE(peers.reason.find(said), std::string::npos) << peers.reason;
   }
@@ -90,7 +97,9 @@ TEST(Peers, FailingIsAReasonAndTheOthersAreTimed) {
 
 /// Real ones, where they are installed: the same motion, so that what is timed is the same work.
 TEST(Peers, InstalledOnesMoveAlike) {
-  const Peers peers = time_peers({{lammps(), {{682, 400, 1}}}, {yade(), {{682, 400, 1}}}}, [] {});
+  std::vector<PeerPlan> plans{lammps(), yade()};
+  for (PeerPlan& plan : plans) plan.sizes = {{682, 400, 1}};
+  const Peers peers = time_peers(plans, [] {});
   for (const PeerTime& t : peers.times) EXPECT_LT(t.difference, 1e-5) << t.program;
   if (peers.times.empty()) GTEST_SKIP() << peers.reason;
 }

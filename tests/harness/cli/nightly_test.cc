@@ -9,7 +9,7 @@
 
 #include "harness/io/atomic_file.h"
 #include "harness/io/json.h"
-#include "tests/harness/cli/program.h"
+#include "tests/harness/cli/small_campaign.h"
 
 extern char** environ;
 
@@ -18,47 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Six cases of milliseconds each.
-const char* const kCampaign = R"([[case]]
-id = "small"
-scene = "scene.toml"
-[case.matrix]
-"contact.stiffness_ratio" = [0.1, 0.3, 0.5]
-"material.density" = [1000.0, "2000 kg/m3"]
-[[case.criterion]]
-metric = "wave_speed"
-target = "static.p_velocity"
-lower = -0.5
-upper = 0.5
-unit = "m/s"
-derivation = "anything near"
-[[case.criterion]]
-metric = "energy_drift"
-upper = 1e-10
-derivation = "leapfrog keeps its invariant to round-off"
-)";
-
-class Nightly : public Cli {
+class Nightly : public SmallCampaign {
  protected:
-  void SetUp() override {
-    write("scene.toml", small_scene());
-    write("campaign.toml", kCampaign);
-  }
-
-  SubprocessResult validate(const std::string& folder, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments = {"validate", path("campaign.toml"), "-o", path(folder)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return ddem(arguments);
-  }
-
-  /// What may not depend on how a campaign was run.
-  std::string outcome(const std::string& folder) const {
-    Json j = read_json(in_folder(folder) / "summary.json");
-    j.erase("wall_seconds");
-    j["provenance"].erase("time");
-    return to_text(j);
-  }
-
   /// Starts a campaign and kills it, and what it started, after some time.
   void kill_after(unsigned microseconds, const std::string& folder, bool resume) const {
     std::vector<std::string> words = {DDEM_PROGRAM, "validate", path("campaign.toml"), "-o", path(folder),
@@ -112,21 +73,6 @@ TEST_F(Nightly, MissingShardsAreErrorsInTheReport) {
               HasSubstr("3 of 9 passed, 6 ERROR"));  // three cases, and the three units that have no result
 }
 
-/// The array script with the variables that Slurm would set, one task after the other.
-TEST_F(Nightly, SlurmArrayScript) {
-  ASSERT_EQ(validate("whole").exit_code, 0);
-  for (const char* task : {"2", "1", "2", "3"}) {  // one of them is started twice
-    EXPECT_FALSE(std::filesystem::exists(in_folder("night") / "report")) << task;
-    const auto run =
-        run_program("/usr/bin/env", {"SLURM_ARRAY_JOB_ID=7", "SLURM_ARRAY_TASK_COUNT=3",
-                                     std::string("SLURM_ARRAY_TASK_ID=") + task, "SLURM_CPUS_PER_TASK=1",
-                                     "NIGHT=" + path("night"), std::string("DDEM=") + DDEM_PROGRAM, "bash",
-                                     DDEM_SCENES "/../campaigns/slurm.sh", path("campaign.toml")});
-    ASSERT_EQ(run.exit_code, 0) << run.standard_error;
-  }
-  EXPECT_EQ(outcome("night/report"), outcome("whole"));
-}
-
 /// A plan first: what is run by it must be the same.
 TEST_F(Nightly, PlannedFirst) {
   const auto plan = validate("night", {"--plan"});
@@ -148,10 +94,63 @@ TEST_F(Nightly, KilledAndResumed) {
   }
 }
 
+/// What goes on is said, and goes on.
+TEST_F(Nightly, InterruptedItSaysHowToGoOn) {
+  write("scene.toml", with_table(small_scene(), "[time]\nsteps = 100000"));
+  for (const char* signal : {"TERM", "HUP"}) {
+    const std::string folder = std::string("an ") + signal;
+    const auto run = shell("{ ddem validate campaign.toml -j 1 -o '" + folder + "' & until ls '" + folder + "'/cases/case/small/*/*.unit >/dev/null 2>&1; do sleep 0.01; done; kill -" + signal + " $!; wait $!; }");
+    EXPECT_GT(run.exit_code, 128) << run.standard_error;
+    const std::string before = "go on with: ";
+    const std::size_t at = run.standard_error.find(before);
+    ASSERT_NE(at, std::string::npos) << run.standard_error;
+    const std::size_t begin = at + before.size();  // the shell's own words may follow
+    const std::string command = run.standard_error.substr(begin, run.standard_error.find('\n', begin) - begin);
+    EXPECT_EQ(command, "ddem validate campaign.toml -o '" + folder + "' --resume");
+    EXPECT_EQ(shell(command).exit_code, 0) << command;
+    EXPECT_THAT(outcome(folder), HasSubstr("case/small/stiffness_ratio=0.3/density=2000-kg-m3"));
+  }
+}
+
+/// What --only leaves out of a baseline is not judged; what is asked for must be there.
+TEST_F(Nightly, BaselinesOfAPart) {
+  ASSERT_EQ(validate("whole").exit_code, 0);
+  ASSERT_EQ(ddem({"baseline", "update", path("whole"), "-o", path("baseline.json")}).exit_code, 0);
+  const std::string one = "case/small/stiffness_ratio=0.3/density=1000";
+  const auto part = validate("part", {"--only", one, "--baseline", path("baseline.json")});
+  EXPECT_EQ(part.exit_code, 0) << part.standard_output;
+  EXPECT_THAT(part.standard_output, HasSubstr("10 of its 12 metrics are not of what was run"));
+  EXPECT_THAT(part.standard_output, HasSubstr("1 of 1 passed"));
+  const auto compared = ddem({"compare", path("part"), path("baseline.json")});
+  EXPECT_EQ(compared.exit_code, 1);
+  EXPECT_THAT(compared.standard_output, HasSubstr("12 metrics, 10 MISSING, 2 PASS"));
+  EXPECT_EQ(ddem({"compare", path("part"), path("baseline.json"), "--partial"}).exit_code, 0);
+  const auto json = ddem({"compare", path("part"), path("baseline.json"), "--json"});
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_EQ(Json::parse(json.standard_output)["states"]["MISSING"], 10);
+
+  Json summary = read_json(in_folder("part/summary.json"));
+  summary["cases"] = Json::array();
+  write("part/summary.json", to_text(summary));
+  for (const char* partial : {"", "--partial"}) {
+    std::vector<std::string> words = {"compare", path("part"), path("baseline.json")};
+    if (*partial != '\0') words.push_back(partial);
+    const auto nothing = ddem(words);
+    EXPECT_EQ(nothing.exit_code, 1);
+    EXPECT_THAT(nothing.standard_error, HasSubstr("not one metric"));
+  }
+
+  write("campaign.toml", replaced(kSmallCampaign, "0.3, 0.5]", "0.5]"));
+  const auto fewer = validate("fewer", {"--baseline", path("baseline.json")});
+  EXPECT_EQ(fewer.exit_code, 1);
+  EXPECT_THAT(fewer.standard_output, HasSubstr("MISSING: " + one));
+  EXPECT_EQ(validate("fewer", {"--baseline", path("baseline.json"), "--partial"}).exit_code, 0);
+}
+
 TEST_F(Nightly, AnotherCampaignInTheFolderIsNotResumed) {
   ASSERT_EQ(validate("night").exit_code, 0);
   const std::string before = outcome("night");
-  write("campaign.toml", replaced(kCampaign, "0.5]", "0.6]"));
+  write("campaign.toml", replaced(kSmallCampaign, "0.5]", "0.6]"));
   const auto resumed = validate("night", {"--resume"});
   EXPECT_EQ(resumed.exit_code, 2);
   EXPECT_THAT(resumed.standard_error, HasSubstr("stiffness_ratio=0.5"));
@@ -191,7 +190,7 @@ TEST_F(Nightly, BaselinesAndNights) {
   for (const Json& c : summary["cases"]) {
     if (c["id"] == "case/small/stiffness_ratio=0.3/density=1000") entry["value"] = c["criteria"][0]["target"];
   }
-  write("baseline.json", to_text(baseline));
+  write("baseline.json", to_text(sealed(baseline)));
   const auto worse = validate("third", {"--baseline", path("baseline.json"), "--history", path("nights")});
   EXPECT_EQ(worse.exit_code, 1);
   EXPECT_THAT(worse.standard_output, HasSubstr("REGRESSED: case/small/stiffness_ratio=0.3/density=1000"));
@@ -215,11 +214,11 @@ TEST_F(Nightly, TrendsAreInTheReportAndDrawnAgain) {
   EXPECT_EQ(report("again"), report("third"));
 
   // A history that is damaged does not cost the results; the night is still added.
-  write("nights/torn.json", "{");
+  write("nights/2026-01-02T030405Z.json", "{");
   const auto run = validate("fourth", {"--history", path("nights")});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.standard_error, HasSubstr("torn.json"));
-  EXPECT_THAT(report("fourth"), HasSubstr("torn.json"));
+  EXPECT_THAT(run.standard_error, HasSubstr("2026-01-02T030405Z.json"));
+  EXPECT_THAT(report("fourth"), HasSubstr("2026-01-02T030405Z.json"));
 }
 
 /// Without time steps: the same in one piece, resumed, and from shards; what steps in time is refused.
@@ -249,7 +248,7 @@ TEST_F(Nightly, StaticsAlone) {
   const auto wave = validate("two", {"--static", "--only", "long-wave/random/dem/kt0.30"});
   EXPECT_EQ(wave.exit_code, 2);
   EXPECT_THAT(wave.standard_error, HasSubstr("steps in time"));
-  write("campaign.toml", kCampaign);
+  write("campaign.toml", kSmallCampaign);
   const auto cases = validate("two", {"--static"});
   EXPECT_EQ(cases.exit_code, 2);
   EXPECT_THAT(cases.standard_error, HasSubstr("no [strip]"));
@@ -287,7 +286,7 @@ id = "x"
     EXPECT_THAT(run.standard_error, HasSubstr(part));
   }
   EXPECT_FALSE(std::filesystem::exists(in_folder("night")));
-  write("campaign.toml", replaced(kCampaign, "0.5]", "-7.0]"));
+  write("campaign.toml", replaced(kSmallCampaign, "0.5]", "-7.0]"));
   EXPECT_THAT(validate("night").standard_error, HasSubstr("contact.stiffness_ratio = -7"));
 }
 

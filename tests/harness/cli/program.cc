@@ -114,7 +114,7 @@ void Cli::expect_contents(const std::map<std::string, std::string>& expected) co
 void Cli::expect_refused(const std::vector<std::string>& parts, int exit_code) const {
   write("earlier.h5", "an earlier result");
   const auto before = contents();
-  const auto run = ddem({"run", path("scene.toml"), "-o", path("earlier.h5"), "--signals", path("new.csv")});
+  const auto run = ddem({"run", path("scene.toml"), "-o", path("earlier.h5"), "--signals", path("new.csv"), "--force"});
   EXPECT_EQ(run.signal, 0) << run.status();
   EXPECT_EQ(run.exit_code, exit_code) << run.standard_error;
   EXPECT_EQ(run.standard_output, "");

@@ -115,8 +115,9 @@ TEST_F(Results, Hdf5OfARandomPackingHasItsSeed) {
 
 TEST_F(Results, AnotherRunReplacesTheFirst) {
   write("scene.toml", small_scene());
-  write("new.csv", "an earlier result");
+  write("new.csv", "time,disc3_ux,disc3_uy,disc3_theta\n0,0,0,0\n");
   ASSERT_EQ(ddem({"run", path("scene.toml"), "--signals", path("new.csv")}).exit_code, 0);
+  EXPECT_THAT(read("new.csv"), testing::Not(testing::HasSubstr("disc3_")));
   EXPECT_THAT(read("new.csv"), testing::StartsWith("time,"));
   EXPECT_EQ(contents().size(), 2u) << "nothing else beside the scene and its result";
 }
