@@ -45,11 +45,11 @@ void refuse_doubled(const MeshDraft& draft) {
     if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
       findings.add("repeated", [&] { return described(draft, k) + " has a node twice"; });
     }
-    const auto [entry, fresh] = known.try_emplace(corners, k);
-    if (fresh) continue;
+    const std::size_t first = known.try_emplace(corners, k).first->second;
+    if (first == k) continue;
     findings.add("doubled", [&] {
       return fmt::format("elements {} and {} are one, at {} (format 2.2 lists an element once for each physical surface: use one, or format 4.1)",
-                         draft.quad_tags[entry->second], draft.quad_tags[k], draft.place(draft.mesh.quads[k][0]));
+                         draft.quad_tags[first], draft.quad_tags[k], draft.place(draft.mesh.quads[k][0]));
     });
   }
   findings.throw_if_any();

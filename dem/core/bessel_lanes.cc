@@ -6,7 +6,8 @@
 namespace ddem::DDEM_ISA {
 namespace {
 
-typedef double Vec __attribute__((vector_size(bessel_lanes * sizeof(double)), may_alias, aligned(sizeof(double))));
+typedef double Vec __attribute__((vector_size(bessel_lanes * sizeof(double))));
+typedef double InMemory __attribute__((vector_size(bessel_lanes * sizeof(double)), aligned(sizeof(double)), may_alias));  // wherever it starts
 
 // Miller's recurrence J_(n-1) = (2n/z) J_n - J_(n+1) from each lane's order down to 0: visit(n, c J_n), 1 = J_0 + 2 sum J_2k.
 template <typename Visit>
@@ -16,7 +17,7 @@ void visit_bessel(const BesselTimes& times, double* scale, const Visit& visit) {
     most = order > most ? order : most;
     least = order > 0 && order < least ? order : least;
   }
-  const Vec two_over_z = *reinterpret_cast<const Vec*>(times.two_over_z);
+  const Vec two_over_z = *reinterpret_cast<const InMemory*>(times.two_over_z);
   Vec above{}, here{}, sum{};
   for (std::size_t n = most; n > 0; --n) {
     for (std::size_t l = 0; n >= least && l < bessel_lanes; ++l) {
@@ -29,11 +30,11 @@ void visit_bessel(const BesselTimes& times, double* scale, const Visit& visit) {
     here = below;
   }
   visit(std::size_t{0}, here);
-  *reinterpret_cast<Vec*>(scale) = sum + here;
+  *reinterpret_cast<InMemory*>(scale) = sum + here;
 }
 
 void store(double* out, std::size_t k, const Vec& value) {
-  *reinterpret_cast<Vec*>(out + k * bessel_lanes) = k == 0 ? value : 2.0 * value;
+  *reinterpret_cast<InMemory*>(out + k * bessel_lanes) = k == 0 ? value : 2.0 * value;
 }
 
 void released(const BesselTimes& times, double* out, double* scale) {

@@ -11,10 +11,11 @@ constexpr int kPacks = 2;  // rows of a tile in packs: as many as the registers 
 constexpr int kPacks = 1;
 #endif
 
-using Pack = double __attribute__((vector_size(64), aligned(8)));
+using Pack = double __attribute__((vector_size(64)));
+typedef double InMemory __attribute__((vector_size(64), aligned(8), may_alias));  // wherever it starts (of a using clang takes no alignment)
 
-[[gnu::always_inline]] inline Pack& pack(double* p) { return *reinterpret_cast<Pack*>(p); }
-[[gnu::always_inline]] inline const Pack& pack(const double* p) { return *reinterpret_cast<const Pack*>(p); }
+[[gnu::always_inline]] inline Pack load(const double* p) { return *reinterpret_cast<const InMemory*>(p); }
+[[gnu::always_inline]] inline void store(double* p, Pack v) { *reinterpret_cast<InMemory*>(p) = v; }
 
 /// Columns of equal stride.
 struct Block {
@@ -28,15 +29,15 @@ template <int packs, int columns>
   const double *a = from.at, *b = factors.at;
   Pack sum[columns][packs];
   for (int j = 0; j < columns; ++j) {
-    for (int p = 0; p < packs; ++p) sum[j][p] = pack(c + j * stride + p * kWidth);
+    for (int p = 0; p < packs; ++p) sum[j][p] = load(c + j * stride + p * kWidth);
   }
   for (int k = 0; k < depth; ++k, a += from.stride, b += factors.stride) {
     for (int j = 0; j < columns; ++j) {
-      for (int p = 0; p < packs; ++p) sum[j][p] -= pack(a + p * kWidth) * b[j];
+      for (int p = 0; p < packs; ++p) sum[j][p] -= load(a + p * kWidth) * b[j];
     }
   }
   for (int j = 0; j < columns; ++j) {
-    for (int p = 0; p < packs; ++p) pack(c + j * stride + p * kWidth) = sum[j][p];
+    for (int p = 0; p < packs; ++p) store(c + j * stride + p * kWidth, sum[j][p]);
   }
 }
 
@@ -134,7 +135,7 @@ template <int n>
   }
   Pack sum[n] = {};
   for (std::ptrdiff_t r = whole; r < s; r += kWidth) {
-    for (int j = 0; j < n; ++j) sum[j] += pack(u + j * s + r) * pack(v + r);
+    for (int j = 0; j < n; ++j) sum[j] += load(u + j * s + r) * load(v + r);
   }
   for (int j = 0; j < n; ++j) {
     const Pack& t = sum[j];

@@ -10,7 +10,8 @@ namespace {
 // One double per element of the batch; the compiler splits it into the registers that the set has.
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));
 
-typedef double Pair __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
+typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
+typedef double PairInMemory __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
 typedef double Quad __attribute__((vector_size(4 * sizeof(double))));
 
 // How the loops over a line of points write their result.
@@ -64,7 +65,7 @@ struct Element {
 template <int n>
 inline __attribute__((always_inline)) void gather(const std::uint32_t* nodes, const double* u,
                                                   Element<n>& e) {
-  const auto pair = [&](std::uint32_t node) { return *reinterpret_cast<const Pair*>(u + 2 * std::size_t{node}); };
+  const auto pair = [&](std::uint32_t node) -> Pair { return *reinterpret_cast<const PairInMemory*>(u + 2 * std::size_t{node}); };
   const auto quad = [&](const std::uint32_t* two) {
     return __builtin_shufflevector(pair(two[0]), pair(two[1]), 0, 1, 2, 3);
   };
@@ -81,7 +82,7 @@ template <int n>
 inline __attribute__((always_inline)) void scatter(const std::uint32_t* nodes, const Element<n>& e,
                                                    double* f) {
   const auto add = [&](std::uint32_t node, const Pair& value) {
-    *reinterpret_cast<Pair*>(f + 2 * std::size_t{node}) += value;
+    *reinterpret_cast<PairInMemory*>(f + 2 * std::size_t{node}) += value;
   };
   for (int point = 0; point < n * n; ++point, nodes += lanes) {
     const Lanes x = e.u[0][point], y = e.u[1][point];
