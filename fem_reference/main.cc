@@ -91,15 +91,20 @@ int run(const std::vector<StripCase>& cases, const Arguments& arguments) {
   return all_ok ? done : solver_failed;
 }
 
-int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arguments, int argc,
-                       char** argv) {
+int run_with_libraries(const std::vector<StripCase>& cases, const Arguments& arguments, char* program) {
   // A process of its own needs no daemon of Open MPI, which costs 0.1 s at the start; mpirun sets the rank.
-  // Nor does it need a fabric: looking for one (the choice of a "pml" other than ob1) waits for 0.2 s.
+  // Nor does it need a fabric: looking for one (the choice of a "pml" other than ob1) waits for 0.2 s, and shared memory
+  // leaves a file in /dev/shm.
   if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     setenv("OMPI_MCA_pml", "ob1", 0);
+    setenv("OMPI_MCA_btl", "self", 0);
   }
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // Its name alone: deal.II hands all words on to libraries that have options of their own (Kokkos: --threads).
+  char* words[] = {program, nullptr};
+  int count = 1;
+  char** argv = words;
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(count, argv, 1);
   is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   int code = done;
   try {
@@ -152,5 +157,5 @@ int main(int argc, char** argv) {
   } catch (const CaseError& error) {
     return complain(wrong_input, error.what());
   }
-  return run_with_libraries(cases, arguments, argc, argv);
+  return run_with_libraries(cases, arguments, argv[0]);
 }

@@ -130,7 +130,7 @@ TEST_P(Instructions, OfAFixedLoad) {
   if (best_instruction_set() == InstructionSet::baseline) GTEST_SKIP() << "the bounds are those of AVX2";
   const std::string counter =
       valgrind + " --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=" + GetParam().function;
-  const std::string text = output_of(counter + " " + DDEM_KERNEL_LOAD + " " + GetParam().law + " 2>&1");
+  const std::string text = output_of(counter + " '" DDEM_KERNEL_LOAD "' " + GetParam().law + " 2>&1");
   const std::string marker = "Collected : ";
   const std::size_t at = text.find(marker);
   ASSERT_NE(at, std::string::npos) << text;
@@ -143,8 +143,8 @@ TEST_P(Instructions, OfAFixedLoad) {
   const double measured = GetParam().law == std::string("wave") ? 1e-6 * instructions : instructions / work;
   RecordProperty("instructions", std::to_string(measured));
   EXPECT_LT(measured, GetParam().bound);
-  // Much less would be a load that did not run.
-  EXPECT_GT(measured, 0.7 * GetParam().bound);
+  // The bounds are those of g++ 12; g++ 14 takes 0.59 to 0.69 of them. Much less would be a load that did not run.
+  EXPECT_GT(measured, 0.5 * GetParam().bound);
 }
 
 INSTANTIATE_TEST_SUITE_P(
