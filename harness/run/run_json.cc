@@ -68,6 +68,8 @@ Json run_json(const DemRun& run) {
     j["status"] = status_of(r.breakdown->cause);
     j["diverged_step"] = r.breakdown->step;
     j["diverged_disc"] = r.breakdown->disc;
+  } else if (run.context.obstacle) {  // of a run: its growth
+    j["status"] = "unstable";
   }
   j["warnings"] = run.warnings;
   j["discs"] = run.assembly.size();

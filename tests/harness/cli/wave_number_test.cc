@@ -218,9 +218,11 @@ TEST_F(WaveNumber, IsNoneWhereTheRunGrows) {
       if (run.exit_code == 3) continue;  // seen to have diverged
       const Json j = Json::parse(run.standard_output, nullptr, false);
       if (const auto v = speed(j)) {
+        EXPECT_EQ(j["status"], "ok");
         EXPECT_NEAR(*v / right, 1.0, 0.02) << load << ", " << fraction;
       } else {
         ++refusals;
+        EXPECT_EQ(j["status"], "unstable");
         EXPECT_THAT(reason(j), HasSubstr("unstable")) << load << ", " << fraction;
       }
     }
