@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <map>
 
@@ -173,12 +174,18 @@ std::string beyond_it(const ddem::Assembly&, const SimulationInput& in) { return
 
 }  // namespace
 
+std::vector<std::string> launcher(int ranks) {
+  if (ranks <= 1) return {};
+  if (std::getenv("SLURM_JOB_ID") != nullptr) return {"srun", "--ntasks={ranks}"};
+  return {"mpirun", "--oversubscribe", "-np", "{ranks}"};
+}
+
 std::shared_ptr<const Solver> lammps_solver(const ReadyOptions& o) {
   SolverDescription d;
   d.name = "lammps";
   const std::string program = o.program.empty() ? "lmp" : o.program;
   d.ranks = o.ranks;
-  if (o.ranks > 1) d.command = {"mpirun", "--oversubscribe", "-np", "{ranks}"};
+  d.command = launcher(o.ranks);
   for (const std::string& word : {program, std::string("-in"), std::string("in.strip"), std::string("-log"), std::string("none")}) d.command.push_back(word);
   d.version_command = {program, "-h"};
   d.abilities.laws = {"dem"};

@@ -232,7 +232,7 @@ std::shared_ptr<const Solver> lammps_ddem_solver(const ReadyOptions& o) {
   if (!fs::exists(program))
     throw MachineError(program + " is missing: it was not built (it needs LAMMPS and MPI, Debian packages liblammps-dev and libopenmpi-dev)");
   d.ranks = o.ranks;
-  if (o.ranks > 1) d.command = {"mpirun", "--oversubscribe", "-np", "{ranks}"};
+  d.command = launcher(o.ranks);
   for (const std::string& word : {program, std::string("-in"), std::string(kLammpsScript), std::string("-log"), std::string("none")}) d.command.push_back(word);
   d.version_command = {program, "--version"};
   d.abilities.laws = builtin_solver().abilities().laws;

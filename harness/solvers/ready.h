@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "harness/solvers/external.h"
 
@@ -12,6 +13,10 @@ struct ReadyOptions {
   std::string program;  ///< empty: as Debian calls it, on the PATH
   int ranks = 1;
 };
+
+/// What starts a program on that many ranks: nothing for one; srun within a job of Slurm, so that it gets the nodes of the job;
+/// else mpirun.
+std::vector<std::string> launcher(int ranks);
 
 std::shared_ptr<const Solver> lammps_solver(const ReadyOptions& options = {});
 /// DDEM on LAMMPS (dem/lammps); without a name the program beside this one.

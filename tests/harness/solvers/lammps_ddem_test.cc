@@ -27,6 +27,16 @@ StripScene soft_strip(const std::string& contact = "") {
   return s;
 }
 
+TEST(Launcher, IsSrunWithinAJobOfSlurm) {
+  ::unsetenv("SLURM_JOB_ID");
+  EXPECT_TRUE(launcher(1).empty());
+  EXPECT_EQ(launcher(4).front(), "mpirun");
+  ::setenv("SLURM_JOB_ID", "1", 1);
+  EXPECT_TRUE(launcher(1).empty());
+  EXPECT_EQ(launcher(4), (std::vector<std::string>{"srun", "--ntasks={ranks}"}));
+  ::unsetenv("SLURM_JOB_ID");
+}
+
 /// Forces at the setup of a run leave strains and slip as they are.
 TEST_F(OnLammps, PiecesHaveTheBitsOfOneRun) {
   for (const char* contact : {"", kNonlinear}) {
@@ -173,7 +183,7 @@ TEST_F(OnLammps, WrongCommandsSayWhatToWrite) {
                                       {"strain lagged", "strain implicit", "need weights"},
                                       {" plane stress", " plain stress", "there is no keyword plain; there are hold"},
                                       {"bond_style ddem linear", "bond_style none", "give bond_style ddem before it"}}) {
-    const SubprocessResult done = folder.run(1, [&](std::string script) {
+    const SubprocessResult done = folder.run(1, [old = old, by = by](std::string script) {
       if (std::string(by) == "bond_style none") script = replaced(std::move(script), "bond_coeff 1 10000000000 0.25\n", "");
       return replaced(std::move(script), old, by);
     });
