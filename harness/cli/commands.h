@@ -24,6 +24,7 @@ void add_compare_command(CLI::App& app, Action& action);
 void add_history_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
+void add_completion_command(CLI::App& app, Action& action);
 void add_scene_reference_command(CLI::App& app, Action& action);
 
 }  // namespace ddem::harness

@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   add_bench_command(app, action);
   add_report_command(app, action);
   add_scene_reference_command(app, action);
+  add_completion_command(app, action);
   refuse_empty_values(app);
   try {
     app.parse(argc, argv);
