@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dem/core/packing.h"
+#include "tests/support/oracles.h"
 
 namespace ddem::test {
 
@@ -16,7 +17,7 @@ using Row = std::vector<std::string>;
 
 /// Data rows of a CSV file below tests/oracles, without its header and comments.
 inline std::vector<Row> oracle_rows(const std::string& name) {
-  std::ifstream file(std::string(DDEM_ORACLES) + "/" + name);
+  std::ifstream file(std::string(kOracles) + "/" + name);
   if (!file) throw std::runtime_error("missing oracle " + name);
   std::vector<Row> rows;
   std::string line;

@@ -39,7 +39,9 @@ using nlohmann::json;
 /// Converts to any member.
 struct Anything {
   template <class T>
-  operator T() const;
+  operator T() const {
+    return T{};
+  }
 };
 
 /// How many members an aggregate has: the most values that it takes in braces. Members that are aggregates

@@ -11,12 +11,13 @@
 #include "dem/spectra/spectra.h"
 #include "harness/model/assemble.h"
 #include "harness/scene/read_scene.h"
+#include "tests/support/oracles.h"
 
 namespace ddem::harness {
 namespace {
 
 Scene scene_of(const std::string& text) {
-  SceneResult result = parse_scene(text, "scene.toml", DDEM_ORACLES, {Purpose::statics});
+  SceneResult result = parse_scene(text, "scene.toml", test::kOracles, {Purpose::statics});
   for (const Violation& v : result.violations) ADD_FAILURE() << to_string(v);
   return *result;
 }

@@ -15,6 +15,7 @@
 #include "harness/run/fem_plan.h"
 #include "harness/scene/read_scene.h"
 #include "tests/harness/cli/program.h"
+#include "tests/support/sanitized.h"
 
 namespace ddem::harness::test {
 namespace {
@@ -60,14 +61,8 @@ const std::string solid =
 // Less than half would let a machine run out of it; more than twice would refuse what fits.
 void expect_near_one(double ratio, const std::string& what) { EXPECT_TRUE(ratio > 0.5 && ratio < 2.0) << what << ": " << ratio; }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // sanitizers take memory of their own
-#else
-constexpr bool kSanitized = false;
-#endif
-
 TEST_F(MemoryNeed, IsWhatDiscsTake) {
-  if (kSanitized) GTEST_SKIP();
+  if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   const std::string moved = solid + "[drive]\nwave = \"shear\"\nduration = 1e-6\namplitude = 1e-8\n[time]\nsteps = 20\n[probes]\ndiscs = [5, 9]\n";
   const std::string soft = "[deformation]\ncorrection = \"full\"\nyoung_modulus = 4e10\npoisson_ratio = 0.3\nscheme = ";
   expect_near_one(taken_over_told({"pack", "-o", path("discs.csv")}, "", Purpose::packing, DiscWork::packing), "pack");
@@ -80,7 +75,7 @@ TEST_F(MemoryNeed, IsWhatDiscsTake) {
 
 /// With the tables and the HDF5 file, which are made in memory. What more samples, probes and snapshots take, beside few.
 TEST_F(MemoryNeed, IsWhatSignalsAndSnapshotsTake) {
-  if (kSanitized) GTEST_SKIP();
+  if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   std::string probes = "0";
   for (int d = 1; d < 60; ++d) probes += fmt::format(", {}", d);
   const auto scene = [&](const std::string& discs, int steps) {
@@ -104,7 +99,7 @@ TEST_F(MemoryNeed, IsWhatSignalsAndSnapshotsTake) {
 
 #ifdef DDEM_HAS_FEM
 TEST_F(MemoryNeed, IsWhatTheContinuumTakes) {
-  if (kSanitized) GTEST_SKIP();
+  if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   std::string points = "[1e-3, 1e-3]";
   for (int k = 1; k < 60; ++k) points += fmt::format(", [{}, 1e-3]", 1e-3 + 1e-4 * k);
   const auto taken_and_told = [&](const char* elements, const std::string& time) {
@@ -128,7 +123,7 @@ TEST_F(MemoryNeed, IsWhatTheContinuumTakes) {
 
 /// Of the packing, with the statics of as many variants at a time as there are cores.
 TEST_F(MemoryNeed, IsWhatCalibrationTakes) {
-  if (kSanitized) GTEST_SKIP();
+  if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 60\nrows = 40\nradius = \"0.1 mm\"\nperiodic = \"xy\"\n");
   const std::vector<std::string> command = {"calibrate", "--young", "30 GPa", "--poisson", "0.25", "--density", "2400", "--assembly", path("scene.toml")};
   const double taken = bytes_taken(command) - bytes_taken({"--version"});
@@ -136,6 +131,7 @@ TEST_F(MemoryNeed, IsWhatCalibrationTakes) {
 }
 
 TEST_F(MemoryNeed, OfTheJobsOfACampaignIsToldBeforeAnyRuns) {
+  if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 100\nradius = \"0.1 mm\"\n" + solid +
                           "[drive]\nwave = \"shear\"\nduration = 1e-6\namplitude = 1e-8\n[time]\nsteps = 20\n[probes]\ndiscs = [5, 9]\n");
   write("cases.toml", "[[case]]\nid = \"a\"\nscene = \"scene.toml\"\n[case.matrix]\n\"contact.stiffness_ratio\" = [0.1, 0.2, 0.3]\n[[case.criterion]]\nmetric = \"bonds\"\nlower = 1\n"

@@ -14,7 +14,7 @@
 namespace ddem::references {
 namespace {
 
-constexpr double kStiffness = 1e10, kMass = 8e-5, kRadius = 1.2e-4;
+constexpr double kStiffness = 1e10, kMass = 8e-5;
 
 /// Long-wave speed in columns (radii) a second, from the closed forms: c^2 = G/rho, (K + G)/rho, the mass of a disc on
 /// 2 sqrt(3) r^2.

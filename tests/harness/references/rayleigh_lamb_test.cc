@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/oracles.h"
+
 namespace ddem::references {
 namespace {
 
@@ -23,7 +25,7 @@ struct Deviation {
 
 /// Largest relative difference from an oracle's rows, computed for `nu`.
 Deviation deviation_from(const std::string& file, double nu) {
-  std::ifstream in(std::string(DDEM_ORACLES) + "/lamb_s0/" + file);
+  std::ifstream in(std::string(test::kOracles) + "/lamb_s0/" + file);
   Deviation largest;
   std::string line;
   while (std::getline(in, line)) {
