@@ -149,7 +149,7 @@ TEST_P(Front, SeveralStepsASweepKeepTheBits) {
   } else if (passes) {
     threads_and_steps = {{1, 2}, {1, 3}, {1, 7}, {1, 16}, {2, 2}, {2, 3}, {2, 16}, {3, 16}};
   }
-  if (test::kSanitized) threads_and_steps = {{2, 16}};
+  if (test::kSanitized) threads_and_steps = {{d.scheme == Scheme::lagged ? 2 : 1, 16}};  // threads that wait are slow there
   std::vector<Assembly> assemblies{test::random_free_strip()};
   const int columns = d.scheme == Scheme::implicit ? 1500 : 750;  // its steps are more passes
   if (passes) assemblies.push_back(test::hexagonal_assembly({.columns = columns, .rows = 5, .radius = 1e-4}));
