@@ -130,6 +130,16 @@ TEST_F(MemoryNeed, IsWhatCalibrationTakes) {
   expect_near_one(taken / memory_of_packings(2400.0, 1, std::min(6, static_cast<int>(std::thread::hardware_concurrency()))), "calibrate");
 }
 
+/// A little more than there is, not only what no machine has.
+TEST_F(MemoryNeed, BeyondTheLimitOfTheProcessIsRefused) {
+  if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
+  write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 100\nradius = \"0.1 mm\"\n" + solid +
+                          "[drive]\nwave = \"shear\"\nduration = 1e-6\namplitude = 1e-8\n[time]\nsteps = 20\n[probes]\ndiscs = [5, 9]\n");
+  const auto run = run_program("/bin/sh", {"-c", "ulimit -v 800000; exec \"$0\" run \"$1\"", DDEM_PROGRAM, path("scene.toml")});
+  EXPECT_EQ(run.exit_code, 2) << run.standard_error;
+  EXPECT_THAT(run.standard_error, testing::HasSubstr("would take 1.1 GB of memory"));
+}
+
 TEST_F(MemoryNeed, OfTheJobsOfACampaignIsToldBeforeAnyRuns) {
   if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 100\nradius = \"0.1 mm\"\n" + solid +
