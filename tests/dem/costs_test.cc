@@ -143,8 +143,13 @@ TEST_P(Instructions, OfAFixedLoad) {
   const double measured = GetParam().law == std::string("wave") ? 1e-6 * instructions : instructions / work;
   RecordProperty("instructions", std::to_string(measured));
   EXPECT_LT(measured, GetParam().bound);
-  // The bounds are those of g++ 12; g++ 14 takes 0.59 to 0.69 of them. Much less would be a load that did not run.
-  EXPECT_GT(measured, 0.5 * GetParam().bound);
+  // Much less would be a load that did not run. The bounds are those of g++ 12; g++ 14 takes 0.59 to 0.69 of them.
+#if defined(__GNUC__) && __GNUC__ >= 14
+  constexpr double kLeast = 0.5;
+#else
+  constexpr double kLeast = 0.7;
+#endif
+  EXPECT_GT(measured, kLeast * GetParam().bound);
 }
 
 INSTANTIATE_TEST_SUITE_P(
