@@ -26,6 +26,9 @@ double number(const json& v) {
   return v.is_boolean() ? static_cast<double>(v.get<bool>()) : v.get<double>();
 }
 
+/// As data_json.h writes one.
+bool is_matrix(const json& v) { return v.size() == 3 && v.contains("rows") && v.contains("columns") && v.contains("values"); }
+
 std::string name_of(std::string key) {
   std::replace(key.begin(), key.end(), '/', ':');
   return key;
@@ -101,13 +104,15 @@ void store_data(Hdf5Group& group, const json& data) {
     if (value.is_null()) {
       group.set_attribute(name + "_status", kNone);
     } else if (value.is_string()) {
-      group.set_attribute(name, value.get<std::string>());
+      if (!value.get_ref<const std::string&>().empty()) group.set_attribute(name, value.get<std::string>());
     } else if (value.is_number_integer() || value.is_boolean()) {
       group.set_attribute(name, value.is_boolean() ? std::int64_t{value.get<bool>()} : value.get<std::int64_t>());
     } else if (value.is_number()) {
       group.set_attribute(name, value.get<double>());
     } else if (value.is_array()) {
       if (!value.empty()) store_list(group, name, value);
+    } else if (is_matrix(value)) {
+      group.write(name, value.at("values").get<std::vector<double>>(), {value.at("rows").get<std::size_t>(), value.at("columns").get<std::size_t>()});
     } else {
       Hdf5Group inside = group.create_group(name);
       store_data(inside, value);

@@ -51,7 +51,11 @@ class StaticsStudy : public Study {
 
   nlohmann::json data() const override {
     nlohmann::json j = nlohmann::json::object();
-    for (const StaticOutcome& s : strip_->found.statics) j[slug_of(s.key)] = s;
+    for (const StaticOutcome& s : strip_->found.statics) {
+      nlohmann::json& outcome = j[slug_of(s.key)] = s;
+      outcome.erase("key");  // its name says it
+      if (s.sections.bar == 0.0) outcome.erase("sections");
+    }
     return j;
   }
 

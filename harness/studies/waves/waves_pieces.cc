@@ -48,12 +48,25 @@ Piece wave_piece(const std::shared_ptr<Strip>& strip, const StripMaterial& m, Pr
   return piece(waves_unit(m, protocol), inputs_of(strip->spec, m), protocol == Protocol::paper ? 1 : 3, run, take, miss);
 }
 
+/// Without what its name says, and what it has not got.
+nlohmann::json stored_wave(const WaveOutcome& w) {
+  nlohmann::json j = w;
+  j.erase("c");
+  if (!w.diverged) {
+    for (const char* member : {"diverged", "diverged_step", "diverged_disc"}) j.erase(member);
+  }
+  if (w.section_speed == 0.0) j["section_speed"] = nullptr;
+  if (w.recording.signals.empty()) j.erase("recording");
+  if (!w.s0.peak && !w.s0.centroid && !w.s0.correlation) j.erase("s0");
+  return j;
+}
+
 nlohmann::json stored_waves(const StripResults& r, Protocol protocol) {
   nlohmann::json j = nlohmann::json::object();
   for (WaveOutcome w : r.waves) {
     if (w.c.protocol != protocol) continue;
     w.recording = thinned(w.recording);
-    j[id_of(w.c)] = w;
+    j[id_of(w.c)] = stored_wave(w);
   }
   return j;
 }

@@ -33,8 +33,9 @@ struct Outer {
   std::vector<std::string> words;
   std::vector<Inner> table;
   Inner one;
+  Eigen::Matrix<double, 2, 3> matrix = Eigen::Matrix<double, 2, 3>::Zero();
 };
-DDEM_MEMBERS(Outer, text, count, flag, number, missing, colour, list, words, table, one)
+DDEM_MEMBERS(Outer, text, count, flag, number, missing, colour, list, words, table, one, matrix)
 
 Outer sample() {
   Outer o;
@@ -47,12 +48,13 @@ Outer sample() {
   o.words = {"one", "two"};
   o.table = {{1.0, 10.0, "first", {1.0, 2.0, 3.0}}, {2.0, std::nullopt, "second", {4.0, 5.0, 6.0}}};
   o.one.x = 7.0;
+  o.matrix << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
   return o;
 }
 
 TEST(DataJson, ThereAndBackEveryMember) {
   const nlohmann::json j = sample();
-  EXPECT_EQ(j.size(), 10u);
+  EXPECT_EQ(j.size(), 11u);
   EXPECT_EQ(nlohmann::json(j.get<Outer>()), j);
   nlohmann::json wrong = j;
   for (const int none : {-1, 2, 1000000}) {
@@ -91,6 +93,9 @@ TEST(StoreData, MembersAreAttributesDatasetsColumnsAndGroups) {
   EXPECT_EQ(table.read_doubles("line").shape, (std::vector<std::size_t>{2, 3}));
   EXPECT_EQ(table.read_doubles("line").values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(g.group("one").double_attribute("x"), 7.0);
+  EXPECT_FALSE(g.group("one").has_attribute("name"));
+  EXPECT_EQ(g.read_doubles("matrix").shape, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(g.read_doubles("matrix").values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(file.root().group("unlike").group("0001").int_attribute("y"), 2);
   EXPECT_FALSE(file.root().contains("empty"));
 }
