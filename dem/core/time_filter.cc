@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -73,11 +74,13 @@ void add_series(BesselSeries series, double alpha, double factor, std::span<cons
       times.two_over_z[l] = 2.0 / z[first + l];
       times.order[l] = last_order(z[first + l]);
     }
-    std::fill(raw.begin(), raw.end(), 0.0);
+    // Beyond the last order of the latest of these times nothing is left.
+    const std::size_t used = std::min(count, *std::max_element(std::begin(times.order), std::end(times.order)) / 2 + 1);
+    std::fill_n(raw.begin(), used * bessel_lanes, 0.0);
     std::array<double, bessel_lanes> scale;
     fill(series, times, raw.data(), scale.data());
     for (std::size_t l = 0; l < width; ++l) scale[l] = times.order[l] > 0 ? factor * (1.0 / scale[l]) : 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < used; ++k) {
       for (std::size_t l = 0; l < width; ++l) a[k * z.size() + first + l] += scale[l] * raw[k * bessel_lanes + l];
     }
   }
