@@ -30,9 +30,9 @@ std::vector<double> correlate(std::span<const double> a, std::span<const double>
   std::vector<double> circular;
   fft.inv(circular, b_hat, static_cast<Eigen::Index>(padded));
   // Negative lags stand at the end of the circular result.
-  std::rotate(circular.begin(), circular.end() - static_cast<std::ptrdiff_t>(a.size() - 1), circular.end());
-  circular.resize(lags);
-  return circular;
+  std::vector<double> by_lag(circular.end() - static_cast<std::ptrdiff_t>(a.size() - 1), circular.end());
+  by_lag.insert(by_lag.end(), circular.begin(), circular.begin() + static_cast<std::ptrdiff_t>(b.size()));
+  return by_lag;
 }
 
 double largest_magnitude(std::span<const double> values) {

@@ -204,7 +204,7 @@ std::span<const KeySpec> scene_keys() {
 }
 
 std::string dotted_name(std::string_view table, std::string_view key) {
-  return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+  return table.empty() ? std::string(key) : std::string(table).append(1, '.').append(key);
 }
 
 std::optional<std::size_t> find_key(std::string_view dotted) {
