@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -53,6 +54,18 @@ TEST(Outline, DoesNotFeelTheEnds) {
   }
   const Outline o = outline_of(p, std::nullopt, std::nullopt);
   EXPECT_NEAR(o.length / (length * static_cast<double>(p.size()) / mass), 1.0, 1e-9);
+}
+
+/// A bay of two missing discs is outside: the ball, a little larger than a disc, reaches its ground.
+TEST(Outline, GoesIntoBays) {
+  Packing p = bare(packings::hexagonal({.columns = 40, .rows = 6, .radius = 1e-4}));
+  const double top = *std::max_element(p.y.begin(), p.y.end());
+  for (std::size_t d = 0, gone = 0; gone < 2; ++d) {
+    if (p.y[d] < top - 1e-9 || p.x[d] < 0.5 * 40 * 2e-4) continue;
+    for (auto* all : {&p.x, &p.y, &p.radius}) all->erase(all->begin() + static_cast<std::ptrdiff_t>(d));
+    --d, ++gone;
+  }
+  EXPECT_NEAR(enclosed_fraction(p).value(), std::numbers::pi / std::sqrt(12.0), 1e-12);
 }
 
 TEST(Outline, OfASingleRowIsItsExtent) {

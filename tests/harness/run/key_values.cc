@@ -25,6 +25,7 @@ const SceneKeys listed = {{"assembly.packing", "\"file\""}, {"assembly.file", "\
 const SceneKeys discs = {{"material.density", "2000"}, {"contact.normal_stiffness", "1e10"}, {"contact.stiffness_ratio", "0.25"}};
 const SceneKeys end = {{"time.step", "1e-9"}, {"time.end", "4e-8"}, {"probes.discs", "[9, 12]"}};
 const SceneKeys pulse = {{"initial.wave", "\"longitudinal\""}, {"initial.shape", "\"gaussian\""}, {"initial.width", "1e-4"}, {"initial.amplitude", "9e-5"}};
+const SceneKeys cosine = {{"initial.shape", "\"cosine\""}};
 const SceneKeys drive = {{"drive.wave", "\"shear\""}, {"drive.duration", "2e-8"}, {"drive.amplitude", "1e-6"}};
 const SceneKeys soft = {{"deformation.young_modulus", "4e10"}, {"deformation.poisson_ratio", "0.3"}, {"deformation.correction", "\"full\""}};
 const SceneKeys implicit = {{"deformation.scheme", "\"implicit\""}};
@@ -33,6 +34,7 @@ std::vector<BaseScene> make_scenes() {
   const SceneKeys moving = with(discs, end);
   return {
       {"pulse on a lattice", with(with(lattice, moving), pulse)},
+      {"cosine on a lattice", with(with(with(lattice, moving), pulse), cosine)},
       {"drive of a random packing", with(with(with(random_discs, moving), drive), {{"boundary.top_bottom", "\"periodic\""}})},
       {"states of listed discs", with(with(listed, moving), {{"initial.displacement", "\"state.csv\""}, {"boundary.right", "\"free\""}})},
       {"lagged strains", with(with(with(rectangle, moving), drive), soft)},
