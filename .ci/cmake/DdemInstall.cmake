@@ -34,13 +34,14 @@ install(FILES ${made}/completions/_ddem DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh
 find_program(DDEM_HELP2MAN help2man)
 if(DDEM_HELP2MAN)
   add_custom_command(OUTPUT ${made}/man/ddem.1.gz
-    COMMAND sh ${CMAKE_SOURCE_DIR}/.ci/man-pages ${DDEM_HELP2MAN} $<TARGET_FILE:ddem> ${PROJECT_VERSION} ${made}/man
+    COMMAND sh ${CMAKE_SOURCE_DIR}/.ci/man-pages ${DDEM_HELP2MAN} $<TARGET_FILE:ddem> ${DDEM_VERSION} ${made}/man
     DEPENDS ddem .ci/man-pages COMMENT "Man pages" VERBATIM)
   add_custom_target(man ALL DEPENDS ${made}/man/ddem.1.gz)
   install(DIRECTORY ${made}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VERSION ${DDEM_VERSION})
 set(CPACK_PACKAGE_CONTACT "the ddem authors <ddem@ddem.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "validation of deformable discrete elements against continua")
 set(CPACK_PACKAGE_DESCRIPTION
