@@ -9,6 +9,7 @@
 #include "harness/io/errors.h"
 #include "harness/io/json.h"
 #include "harness/nightly/summary.h"
+#include "reports/margin.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -48,17 +49,8 @@ double badness(const Criterion& c, double value, double usual) {
   return std::abs(value - usual);
 }
 
-double half_width(const Criterion& c) {
-  const bool lower = std::isfinite(c.lower), upper = std::isfinite(c.upper);
-  const double middle = std::isfinite(c.target) ? c.target : 0.0;
-  if (lower && upper) return 0.5 * (c.upper - c.lower);
-  if (lower) return std::abs(middle - c.lower);
-  if (upper) return std::abs(c.upper - middle);
-  return 0.0;
-}
-
 double least_noise(const Criterion& c) {
-  return std::max(kRoundOff * std::abs(c.actual), kShareOfBand * half_width(c));
+  return std::max(kRoundOff * std::abs(c.actual), kShareOfBand * reports::half_width(c));
 }
 
 Baseline baseline_of(const std::vector<std::vector<Verdict>>& nights, std::vector<std::string>& left_out) {

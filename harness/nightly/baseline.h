@@ -29,9 +29,6 @@ std::string metric_key(const std::string& case_id, const std::string& metric);
 /// else beyond the one there is, so that less is better. Without any of these the distance from `usual`.
 double badness(const reports::Criterion& criterion, double value, double usual);
 
-/// Half the accuracy band; a one-sided band reaches from the target, or 0, to its bound. 0: no bounds, or bounds that meet.
-double half_width(const reports::Criterion& criterion);
-
 /// What no machine can tell apart: round-off in the last bits, which other compilers and instruction sets
 /// change (1e-9 of the value), and a hundredth of the accuracy band's half width.
 double least_noise(const reports::Criterion& criterion);

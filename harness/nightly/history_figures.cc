@@ -6,39 +6,21 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "harness/nightly/baseline.h"
+#include "reports/margin.h"
 
 namespace ddem::harness::nightly {
 namespace {
 
 using reports::Color;
 using reports::Criterion;
+using reports::Margin;
 
 constexpr std::size_t kDrawnNights = 101, kPanels = 8, kRows = 60;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kNightAxis = "night (0: this one)";
-
-/// From values to an axis on which 0 is right (the target, else the middle of the band, else 0) and a limit is at -1 or 1, also where
-/// right is not in the middle. Where a side has no limit the scale is that of the other.
-class Margin {
- public:
-  explicit Margin(const Criterion& c) : half_width_(half_width(c)) {
-    if (std::isfinite(c.target))
-      right_ = c.target;
-    else if (std::isfinite(c.lower) && std::isfinite(c.upper))
-      right_ = 0.5 * (c.lower + c.upper);
-    above_ = scale(c.upper - right_);
-    below_ = scale(right_ - c.lower);
-  }
-  bool has_scale() const { return half_width_ > 0.0; }
-  double of(double value) const { return (value - right_) / (value > right_ ? above_ : below_); }
-
- private:
-  double scale(double width) const { return std::isfinite(width) && width > 0.0 ? width : half_width_; }
-
-  double right_ = 0.0, half_width_ = 0.0, above_ = 0.0, below_ = 0.0;
-};
 
 using Criteria = std::map<std::string, Criterion>;
 
@@ -173,12 +155,10 @@ reports::Figure margins_figure(const Drawn& drawn) {
   std::map<std::string, std::vector<double>> worst;
   for (std::size_t k = 0; k < drawn.nights.size(); ++k) {
     for (const auto& [key, c] : drawn.nights[k]) {
-      const Margin margin(c);
-      const bool two_sided = std::isfinite(c.target) || (std::isfinite(c.lower) && std::isfinite(c.upper));
-      if (!std::isfinite(c.actual) || !margin.has_scale() || (!two_sided && !std::isfinite(c.upper))) continue;
+      const std::optional<double> share = reports::share_of_limit(c);
+      if (!share) continue;
       std::vector<double>& check = worst.try_emplace(key.substr(0, key.find_first_of("/ ")), drawn.nights.size(), kNone).first->second;
-      const double share = two_sided ? std::abs(margin.of(c.actual)) : margin.of(c.actual);
-      if (!(share <= check[k])) check[k] = share;
+      if (!(*share <= check[k])) check[k] = *share;
     }
   }
   for (const auto& [check, shares] : worst)
