@@ -126,6 +126,7 @@ using Panel = std::variant<Plot, Strip>;
 struct Figure {
   std::string id = {};  ///< anchor and file name: letters, digits, hyphens; anything else is replaced
   std::string title = {};
+  std::string made_by = {};  ///< the command that makes it again
   std::string caption = {};  ///< says what to see
   std::vector<Panel> panels = {};
   std::size_t columns = 0;  ///< plots side by side where there is room; 0: one for a single plot, else two

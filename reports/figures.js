@@ -347,7 +347,14 @@
     link.append(make('span', { className: 'hidden', textContent: ` of ${figure.title}` }));
     const points = figure.thinned ? 'long series are thinned, their extremes kept' : 'all points';
     const note = ` (SI units, ${figure.digits} digits, ${points}; figures/${figure.id}.csv beside this page has every digit)`;
-    host.querySelector('.csv')?.replaceChildren(link, note);
+    const copy = make('button', { type: 'button', textContent: 'Copy' });
+    copy.append(make('span', { className: 'hidden', textContent: ` the data of ${figure.title}` }));
+    copy.addEventListener('click', async () => {
+      await navigator.clipboard.writeText(csvOf(figure));
+      copy.firstChild.textContent = 'Copied';
+      setTimeout(() => (copy.firstChild.textContent = 'Copy'), 2000);
+    });
+    host.querySelector('.csv')?.replaceChildren(link, navigator.clipboard ? ' ' : '', navigator.clipboard ? copy : '', note);
   };
 
   const draw = (host) => {
@@ -384,13 +391,23 @@
     });
   };
 
-  if (typeof Plotly === 'undefined' || !palette) return;
+  const source = document.getElementById('plotly');
+  if (!source || !palette) return;
+  // 1.5 MB, compiled when the first figure comes near, and not before the page is there.
+  let library;
+  const plotly = () =>
+    (library ??= new Promise((done) => {
+      setTimeout(() => {
+        document.head.append(make('script', { textContent: source.textContent }));
+        done();
+      });
+    }));
   const waiting = new IntersectionObserver(
     (entries) => {
       for (const entry of entries) {
         if (!entry.isIntersecting) continue;
         waiting.unobserve(entry.target);
-        draw(entry.target);
+        plotly().then(() => draw(entry.target));
       }
     },
     { rootMargin: '800px' },

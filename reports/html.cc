@@ -71,9 +71,9 @@ void append_provenance(Markup& out, const Report& report) {
   out.close().close().newline();
 }
 
-/// Any script: what follows // is no markup to XML, and a comment to the script.
-void append_script(Markup& out, std::string_view script) {
-  out.open("script").raw("//<![CDATA[\n").raw(script).raw("\n//]]>").close().newline();
+/// Any script: what follows // is no markup to XML, and a comment to the script. As text/plain it waits until it is asked for.
+void append_script(Markup& out, std::string_view script, Markup::Attributes attributes = {}) {
+  out.open("script", attributes).raw("//<![CDATA[\n").raw(script).raw("\n//]]>").close().newline();
 }
 
 std::string render(const Report& report, const Detail& detail, const HtmlOptions& options) {
@@ -85,14 +85,17 @@ std::string render(const Report& report, const Detail& detail, const HtmlOptions
   out.raw("<!DOCTYPE html>\n").open("html", {{"lang", "en"}}).newline();
   append_head(out, report, options.campaign);
   out.open("body").newline().open("header").element("h1", {}, report.title.empty() ? "Report" : report.title);
-  for (const std::string& line : report.summary) out.element("p", {}, line);
+  append_conclusion(out, report);
   append_headlines(out, report);
+  for (const std::string& line : report.summary) out.element("p", {{"class", "note"}}, line);
   append_contents(out, report, section_ids);
   out.close().newline().open("main").newline();
   append_verdicts(out, report.verdicts);
   for (std::size_t i = 0; i < report.sections.size(); ++i) {
     const Section& section = report.sections[i];
-    out.open("section", {{"id", section_ids[i]}}).element("h2", {}, section.heading).newline();
+    out.open("section", {{"id", section_ids[i]}}).open("h2").text(section.heading);
+    append_permalink(out, section_ids[i], section.heading);
+    out.close().newline();
     for (const std::string& paragraph : section.paragraphs) out.element("p", {}, paragraph).newline();
     for (const Figure& figure : section.figures)
       append_figure(out, figure, anchors.make("figure-" + figure.id), detail);
@@ -103,7 +106,7 @@ std::string render(const Report& report, const Detail& detail, const HtmlOptions
   out.close().newline();
   if (detail.live_points > 0) {
     out.open("script", {{"type", "application/json"}, {"id", "palette"}}).raw(live_palette()).close().newline();
-    append_script(out, options.plotly);
+    append_script(out, options.plotly, {{"type", "text/plain"}, {"id", "plotly"}});
   }
   append_script(out, kScript);
   out.close().close().newline();
@@ -116,8 +119,8 @@ std::string render_html(const Report& report, const HtmlOptions& options) {
   constexpr Detail still[] = {{.csv_rows = 4000, .table_rows = 60, .narrow_drawings = true},
                               {.csv_rows = 800, .table_rows = 20, .narrow_drawings = true},
                               {.csv_rows = 200, .table_rows = 10, .narrow_drawings = false}};
-  constexpr Detail live[] = {{.table_rows = 40, .narrow_drawings = false, .live_points = 2000},
-                             {.table_rows = 30, .narrow_drawings = false, .live_points = 1000},
+  constexpr Detail live[] = {{.table_rows = 30, .narrow_drawings = false, .live_points = 2000},
+                             {.table_rows = 25, .narrow_drawings = false, .live_points = 1000},
                              {.table_rows = 20, .narrow_drawings = false, .live_points = 500},
                              {.table_rows = 10, .narrow_drawings = false, .live_points = 150}};
   for (const std::string_view end : {"]]>", "</script", "<!--"})

@@ -29,7 +29,8 @@ void append_csv_link(Markup& out, const Figure& figure, const Detail& detail) {
 void append_data(Markup& out, const Figure& figure, const Detail& detail) {
   out.open("details", {{"class", "data"}}).element("summary", {}, "Data").newline();
   append_csv_link(out, figure, detail);
-  for (const Table& table : data_tables(figure, detail.table_rows)) append_table(out, table);
+  if (!figure.made_by.empty()) out.open("p", {{"class", "note"}}).text("Made by ").element("code", {}, figure.made_by).text(".").close().newline();
+  for (const Table& table : data_tables(figure, detail.table_rows)) append_table(out, table, Folding::none);
   out.close().newline();
 }
 
@@ -48,7 +49,11 @@ void append_figure(Markup& out, const Figure& figure, const std::string& anchor,
   Detail detail = page;
   if (!is_live(figure)) detail.live_points = 0;
   out.open("figure", {{"id", anchor}}).newline();
-  if (!figure.title.empty()) out.element("h3", {}, figure.title).newline();
+  if (!figure.title.empty()) {
+    out.open("h3").text(figure.title);
+    append_permalink(out, anchor, figure.title);
+    out.close().newline();
+  }
   if (detail.live_points > 0) {
     out.open("div", {{"class", "live"}}).text("").close();
     out.open("script", {{"type", "application/json"}, {"class", "figure-data"}});

@@ -21,9 +21,25 @@ struct Detail {
 /// `anchor`: unique within the page.
 void append_figure(Markup& out, const Figure& figure, const std::string& anchor, const Detail& detail);
 
-void append_table(Markup& out, const Table& table);
+/// A long table stands folded where it may.
+enum class Folding { long_tables, none };
+void append_table(Markup& out, const Table& table, Folding folding = Folding::long_tables);
 
-/// Headcount, filters and verdicts, grouped by state, worst first.
+/// "#" behind a heading: its address.
+void append_permalink(Markup& out, const std::string& anchor, std::string_view of);
+
+/// Headcount, what broke, and what was found: the page opens with it.
+void append_conclusion(Markup& out, const Report& report);
+
+/// The cases that passed with the least margin.
+void append_nearest(Markup& out, const std::vector<Verdict>& verdicts);
+
+void append_badge(Markup& out, State state);
+
+/// Id of a case in the page.
+std::string case_anchor(std::string_view case_id);
+
+/// Margins, filters and verdicts, grouped by state, worst first.
 void append_verdicts(Markup& out, const std::vector<Verdict>& verdicts);
 
 /// Opens a box that scrolls sideways by itself on narrow screens; close with close().

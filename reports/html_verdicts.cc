@@ -16,11 +16,6 @@ std::string_view css_class(State state) {
   return state == State::error ? "error" : "fail";
 }
 
-// Hundreds of them: the tick or cross before the word is the style sheet's.
-void append_badge(Markup& out, State state) {
-  out.element("span", {{"class", fmt::format("badge {}", css_class(state))}}, to_string(state));
-}
-
 // Where the actual value is between its bounds, at a glance. The numbers are beside it.
 void append_gauge(Markup& out, const Criterion& c) {
   const double span = c.upper - c.lower;
@@ -40,7 +35,7 @@ void append_gauge(Markup& out, const Criterion& c) {
 
 void append_gauge_scale(Markup& out) {
   out.open("svg", {{"class", "hidden"}, {"aria-hidden", "true"}}).open("symbol", {{"id", "gauge"}, {"viewBox", "0 0 96 16"}});
-  out.empty("path", {{"d", "M0 8h96"}, {"stroke", "#b8bfc7"}}).empty("path", {{"d", "M24 4h48v8h-48z"}, {"fill", "#cfe3f1"}});
+  out.empty("path", {{"class", "axis"}, {"d", "M0 8h96"}}).empty("path", {{"class", "band"}, {"d", "M24 4h48v8h-48z"}});
   out.close().close().newline();
 }
 
@@ -70,7 +65,7 @@ void append_criteria(Markup& out, const Verdict& verdict) {
 }
 
 void open_case(Markup& out, const Verdict& v) {
-  std::vector<Attribute> attributes = {{"class", "case"}};
+  std::vector<Attribute> attributes = {{"class", "case"}, {"id", case_anchor(v.case_id)}};
   std::vector<std::string> names;
   for (const auto& [facet, value] : v.facets) names.push_back("data-" + slug(facet));
   for (std::size_t i = 0; i < names.size(); ++i) attributes.emplace_back(names[i], v.facets[i].second);
@@ -142,21 +137,24 @@ void append_bar(Markup& out, const std::vector<const Verdict*>& sorted) {
 
 }  // namespace
 
+// Hundreds of them: the tick or cross before the word is the style sheet's.
+void append_badge(Markup& out, State state) {
+  out.element("span", {{"class", fmt::format("badge {}", css_class(state))}}, to_string(state));
+}
+
+// No blanks in ids.
+std::string case_anchor(std::string_view case_id) {
+  std::string anchor = "case-" + std::string(case_id);
+  std::replace(anchor.begin(), anchor.end(), ' ', '_');
+  return anchor;
+}
+
 void append_verdicts(Markup& out, const std::vector<Verdict>& verdicts) {
   if (verdicts.empty()) return;
   const std::vector<const Verdict*> sorted = worst_first(verdicts);
-  const bool all =
-      std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return is_pass(v.state); });
-  const bool failed =
-      std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return is_failure(v.state); });
   out.open("section", {{"id", "verdicts"}, {"class", "verdicts"}}).element("h2", {}, "Verdicts").newline();
-  out.element("p",
-              {{"class", all      ? "headcount pass"
-                         : failed ? "headcount fail"
-                                  : "headcount skip"}},
-              headcount(verdicts))
-      .newline();
   append_bar(out, sorted);
+  append_nearest(out, verdicts);
   append_filter(out, sorted);
   append_gauge_scale(out);
   for (const State state : kStatesWorstFirst) {

@@ -31,7 +31,8 @@ struct Section {
 
 struct Report {
   std::string title = {};
-  std::vector<std::string> summary = {};  ///< paragraphs below the title
+  std::vector<std::string> findings = {};  ///< what was found, a sentence each, in words made from the numbers
+  std::vector<std::string> summary = {};   ///< paragraphs: of what the report is
   std::vector<Headline> headlines = {};
   std::vector<Verdict> verdicts = {};  ///< in any order
   std::vector<Section> sections = {};

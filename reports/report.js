@@ -53,6 +53,44 @@ const ddemPage = (() => {
     search?.addEventListener('input', apply);
   };
 
+  // ---- Long tables: by a column, up and down.
+  const digits = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+  const numberOf = (text) =>
+    Number(
+      text
+        .replace('×10', 'e')
+        .replace(/[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (c) => (c === '⁻' ? '-' : digits.indexOf(c)))
+        .replace(/−/g, '-'),
+    );
+  const compare = (a, b) => {
+    const [x, y] = [numberOf(a), numberOf(b)];
+    return Number.isFinite(x) && Number.isFinite(y) ? x - y : a.localeCompare(b, 'en', { numeric: true });
+  };
+  const setUpSorting = () => {
+    for (const table of all('table.long')) {
+      all('thead th', table).forEach((heading, column) => {
+        const button = make('button', { type: 'button', title: 'Sort' }, ...heading.childNodes);
+        heading.replaceChildren(button);
+        button.addEventListener('click', () => {
+          const down = heading.getAttribute('aria-sort') === 'ascending';
+          for (const other of all('thead th', table)) other.removeAttribute('aria-sort');
+          heading.setAttribute('aria-sort', down ? 'descending' : 'ascending');
+          const text = (row) => row.children[column].textContent;
+          const rows = all('tbody tr', table).sort((a, b) => (down ? -1 : 1) * compare(text(a), text(b)));
+          table.tBodies[0].append(...rows);
+        });
+      });
+    }
+  };
+
+  // ---- What a link leads to is open.
+  const openTarget = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    for (let element = target; element; element = element.parentElement) if (element.matches('details')) element.open = true;
+    target?.scrollIntoView();
+  };
+  window.addEventListener('hashchange', openTarget);
+
   // ---- On paper all details are open, data aside.
   let opened = [];
   window.addEventListener('beforeprint', () => {
@@ -64,5 +102,7 @@ const ddemPage = (() => {
   });
 
   setUpFilters();
+  setUpSorting();
+  if (location.hash) openTarget();
   return { all, make, palette, font };
 })();

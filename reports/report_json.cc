@@ -112,6 +112,7 @@ void fields(auto& archive, Is<Figure> auto& f) {
   archive("id", f.id);
   archive("title", f.title);
   archive("caption", f.caption);
+  archive("made_by", f.made_by);
   archive("panels", f.panels);
   archive("columns", f.columns);
 }
@@ -158,6 +159,7 @@ void fields(auto& archive, Is<Section> auto& s) {
 
 void fields(auto& archive, Is<Report> auto& r) {
   archive("title", r.title);
+  archive("findings", r.findings);
   archive("summary", r.summary);
   archive("headlines", r.headlines);
   archive("verdicts", r.verdicts);

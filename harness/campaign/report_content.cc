@@ -75,7 +75,10 @@ reports::Report report_of(const CampaignResults& r, const std::vector<reports::V
     s.study->introduce(report);
     s.study->count(work);
     if (!s.is_asked_for) continue;
-    for (reports::Section& section : sections_of(s)) add_section(report.sections, std::move(section));
+    for (reports::Section& section : sections_of(s)) {
+      for (reports::Figure& figure : section.figures) figure.made_by = fmt::format("ddem validate --only {}", s.entry->id);
+      add_section(report.sections, std::move(section));
+    }
   }
   report.sections.insert(report.sections.end(), more.begin(), more.end());
   for (reports::Section& section : report.sections) leave_out_undrawable(section);

@@ -45,12 +45,16 @@ nightly::Night night_of(const PlannedCampaign& campaign, const CampaignResults& 
   return {time_of(summary), summary, work_of(campaign, results)};
 }
 
+constexpr std::size_t kToldBroken = 5;
+
 /// A history that cannot be read must not cost the results: the report says what is wrong with it.
-reports::Section trends_until(const nightly::Night& night, const std::filesystem::path& folder) {
+reports::Section trends_until(const nightly::Night& night, const std::filesystem::path& folder, std::vector<std::string>& findings) {
   try {
     std::vector<nightly::Night> nights = nightly::nights_so_far(folder);
     nights.push_back(night);
     for (const std::string& complaint : nightly::clock_complaints(nights)) message("history: {}", complaint);
+    findings = nightly::broken_since(nights);
+    if (findings.size() > kToldBroken) findings.resize(kToldBroken);
     return nightly::history_section(nights);
   } catch (const InputError& e) {
     message("no trends in the report: {}", e.what());
@@ -76,7 +80,11 @@ int conclude_campaign(const PlannedCampaign& campaign, const CampaignResults& re
     write_results(conclusion.folder, results, report_of(results, verdicts));
   } else {
     const nightly::Night night = night_of(campaign, results, verdicts);
-    write_results(conclusion.folder, results, report_of(results, verdicts, {trends_until(night, conclusion.history)}));
+    std::vector<std::string> since;
+    const reports::Section trends = trends_until(night, conclusion.history, since);
+    reports::Report report = report_of(results, verdicts, {trends});
+    report.findings.insert(report.findings.begin(), since.begin(), since.end());
+    write_results(conclusion.folder, results, report);
     fmt::print("history: {}\n", nightly::append_night(conclusion.history, night).string());
   }
   print_verdicts(verdicts);

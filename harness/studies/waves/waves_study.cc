@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "harness/campaign/pieces.h"
 #include "harness/studies/strip/outside_members.h"
@@ -11,6 +12,7 @@
 #include "harness/studies/waves/pickers.h"
 #include "harness/studies/waves/speed_table.h"
 #include "harness/studies/waves/waves_figures.h"
+#include "harness/studies/waves/waves_findings.h"
 #include "harness/studies/waves/waves_pieces.h"
 #include "harness/studies/waves/waves_verdicts.h"
 
@@ -52,6 +54,7 @@ class WavesStudy : public Study {
   }
 
   void introduce(reports::Report& report) const override {
+    std::ranges::move(wave_findings(strip_->found), std::back_inserter(report.findings));
     for (const Model model : strip_->spec.models) {
       report.headlines.push_back({fmt::format("ν reached, {}", name(model)), range_text(poisson_curve(strip_->found, model).mean),
                                   "random packings, from P and shear waves, over kₜ/kₙ"});

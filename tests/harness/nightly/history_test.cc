@@ -11,6 +11,7 @@
 
 #include "harness/io/errors.h"
 #include "tests/harness/io/scratch.h"
+#include "tests/harness/nightly/made_up_nights.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -246,6 +247,17 @@ TEST(History, TextSaysWhatChanged) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   EXPECT_EQ(text.find("wall time"), std::string::npos);
   EXPECT_NE(trends_text(all, trends_of(all), true).find("wall time"), std::string::npos);
+}
+
+TEST(BrokenSince, CountsTheNightsWithoutAGap) {
+  std::vector<Night> nights = made_up_nights(5);
+  EXPECT_TRUE(broken_since(nights).empty());
+  EXPECT_TRUE(broken_since({}).empty());
+  const auto fail = [&nights](int night, int verdict) { nights[night].summary.verdicts[verdict].state = reports::State::fail; };
+  fail(4, 1);  // this night alone
+  fail(0, 2), fail(2, 2), fail(3, 2), fail(4, 2);  // again since the third
+  fail(3, 0);                                      // mended since
+  EXPECT_EQ(broken_since(nights), (std::vector<std::string>{"energy fails since 2026-01-03T02:00:00Z, 3 nights.", "wave/jump broke this night."}));
 }
 
 }  // namespace

@@ -1,0 +1,84 @@
+#include "harness/studies/waves/waves_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "harness/studies/waves/waves_figures.h"
+
+namespace ddem::harness {
+namespace {
+
+struct Reach {
+  Model model = Model::dem;
+  double lowest = 0.0, highest = 0.0;
+};
+
+std::optional<Reach> reach_of(const StripResults& r, Model model) {
+  std::vector<double> nu = poisson_curve(r, model).mean;
+  std::erase_if(nu, [](double v) { return !std::isfinite(v); });
+  if (nu.empty()) return std::nullopt;
+  const auto [lowest, highest] = std::minmax_element(nu.begin(), nu.end());
+  return Reach{model, *lowest, *highest};
+}
+
+/// Mean wall time of the long waves of a model through random packings, s; 0 without one. All models send the same waves.
+double seconds_a_wave(const StripResults& r, Model model) {
+  double seconds = 0.0;
+  int waves = 0;
+  for (const WaveOutcome& w : r.waves) {
+    if (w.c.protocol != Protocol::long_wave || w.c.packing != StripPacking::random || w.c.model != model || !w.speed) continue;
+    seconds += w.seconds;
+    ++waves;
+  }
+  return waves > 0 ? seconds / waves : 0.0;
+}
+
+std::string reach_sentence(const StripResults& r) {
+  const std::optional<Reach> dem = reach_of(r, Model::dem);
+  std::optional<Reach> best;
+  for (const Model model : r.campaign.models) {
+    const std::optional<Reach> reach = model == Model::dem ? std::nullopt : reach_of(r, model);
+    if (reach && (!best || reach->highest > best->highest)) best = reach;
+  }
+  if (!dem || !best) return "";
+  std::string text = fmt::format("In random packings {} reaches Poisson's ratios from {:.3f} to {:.3f}, DEM from {:.3f} to {:.3f}", name(best->model),
+                                 best->lowest, best->highest, dem->lowest, dem->highest);
+  text += best->highest > dem->highest ? fmt::format(": {:.3f} beyond it.", best->highest - dem->highest) : ": no more.";
+  const double cost = seconds_a_wave(r, best->model), of_dem = seconds_a_wave(r, Model::dem);
+  if (cost > 0.0 && of_dem > 0.0) text += fmt::format(" Its waves took {:.1f} times as long as DEM's.", cost / of_dem);
+  return text;
+}
+
+/// |speed / reference - 1| of the waves of bulk (P and shear) through a packing.
+std::vector<double> deviations(const StripResults& r, StripPacking packing, double WaveOutcome::*reference) {
+  std::vector<double> all;
+  for (const WaveOutcome& w : r.waves) {
+    if (w.c.protocol != Protocol::long_wave || w.c.packing != packing || w.c.wave == StripWave::bar || !w.speed || !(w.*reference > 0.0)) continue;
+    all.push_back(std::abs(*w.speed / w.*reference - 1.0));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::string speed_sentence(const std::vector<double>& sorted, const char* of_what, const char* reference) {
+  if (sorted.empty()) return "";
+  return fmt::format("P and shear waves through {} run within {:.2f} % of {} ({} waves, median {:.2f} %).", of_what, 100.0 * sorted.back(), reference,
+                     sorted.size(), 100.0 * sorted[sorted.size() / 2]);
+}
+
+}  // namespace
+
+std::vector<std::string> wave_findings(const StripResults& r) {
+  std::vector<std::string> findings = {
+      reach_sentence(r),
+      speed_sentence(deviations(r, StripPacking::random, &WaveOutcome::section_speed), "random packings", "the static speeds between the same sections"),
+      speed_sentence(deviations(r, StripPacking::hexagonal, &WaveOutcome::kinematic_speed), "the lattice", "the closed forms"),
+  };
+  std::erase(findings, "");
+  return findings;
+}
+
+}  // namespace ddem::harness
