@@ -125,7 +125,12 @@ struct Content {
 Content as_gmsh_reads(const std::filesystem::path& file) {
   const meshes::GmshSession session;
   gmsh::open(file.string());
-  const auto elements = [](int dimension, int entity, std::size_t corners) {
+  std::vector<std::size_t> numbers;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(numbers, coordinates, parameters);
+  std::map<std::size_t, Place> places_of;
+  for (std::size_t n = 0; n < numbers.size(); ++n) places_of[numbers[n]] = {coordinates[3 * n], coordinates[3 * n + 1]};
+  const auto elements = [&places_of](int dimension, int entity, std::size_t corners) {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
     gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
@@ -134,11 +139,7 @@ Content as_gmsh_reads(const std::filesystem::path& file) {
       const std::size_t count = nodes[k].size() / tags[k].size();
       for (std::size_t e = 0; e < tags[k].size(); ++e) {
         std::vector<Place> places;
-        for (std::size_t c = 0; c < corners; ++c) {
-          std::vector<double> place, parameters;
-          gmsh::model::mesh::getNode(nodes[k][e * count + c], place, parameters);
-          places.emplace_back(place[0], place[1]);
-        }
+        for (std::size_t c = 0; c < corners; ++c) places.push_back(places_of.at(nodes[k][e * count + c]));
         result.insert(places);
       }
     }
