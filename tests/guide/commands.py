@@ -11,19 +11,19 @@ import sys
 import tempfile
 
 program, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-PAGES = ["README.md", "harness/guide/tutorial.md", "harness/guide/calibrating.md", "harness/guide/nights.md", "harness/guide/lammps.md"]
+PAGES = ["README.md", "harness/guide/tutorial.md", "harness/guide/calibrating.md", "harness/guide/nights.md", "harness/guide/lammps.md", "harness/guide/notebooks.md"]
 MOST_COMMANDS = 12
 # Tested elsewhere (the suite itself, the launcher, installing, Slurm), or of programs that need not be here.
 ELSEWHERE = re.compile(r"\s*(\./ddem test|\./ddem validate  +# installs|ctest |sbatch |parallel |cmake |ninja )")
-SMALL = '[studies]\nrun = ["statics", "sizes"]\n[strip]\nseeds = [1, 2]\nstiffness_ratios = [0.3]\nmodels = ["dem", "implicit-full"]\n'
+SMALL = '[studies]\nrun = ["statics", "waves"]\n[strip]\nseeds = [1, 2]\nstiffness_ratios = [0.3]\nmodels = ["dem", "implicit-full"]\n'
 SMALL_FOR_SOLVERS = '[[case]]\nid = "small"\nscene = "scene.toml"\n[[case.criterion]]\nmetric = "wave_speed"\ntarget = "static.p_velocity"\nlower = -0.03\nupper = 0.03\nderivation = "one packing"\n'
 # What the README's examples call their files.
 SHOTS = "time,near,far\n" + "".join(
     f"{k * 1e-7:g},{1e-6 * max(0, 1 - abs(k - 60) / 12):g},{1e-6 * max(0, 1 - abs(k - 110) / 12):g}\n" for k in range(200))
 
 
-def blocks(page):
-    return re.findall(r"^```sh\n(.*?)^```", (root / page).read_text(), re.S | re.M)
+def blocks(page, language="sh"):
+    return re.findall(rf"^```{language}\n(.*?)^```", (root / page).read_text(), re.S | re.M)
 
 
 def prepare(folder, page):
@@ -46,11 +46,26 @@ exec {program} "$@"
     launcher.chmod(launcher.stat().st_mode | stat.S_IXUSR)
 
 
-def run(block, folder):
-    lines = [line for line in block.splitlines() if not ELSEWHERE.match(line)]
+def run(command, folder):
     root_may = dict(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1")
     environment = dict(os.environ, **root_may, PATH=f"{folder}:{program.parent}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}")
-    return subprocess.run(["bash", "-euo", "pipefail", "-c", "\n".join(lines)], cwd=folder, env=environment, capture_output=True, text=True)
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+
+
+def run_lines(block, folder):
+    lines = [line for line in block.splitlines() if not ELSEWHERE.match(line)]
+    return run(["bash", "-euo", "pipefail", "-c", "\n".join(lines)], folder)
+
+
+def has_python_of_notebooks():
+    return subprocess.run([sys.executable, "-c", "import h5py, pandas, matplotlib"], capture_output=True).returncode == 0
+
+
+def tell(page, block, done):
+    print(f"{page}: {block.splitlines()[0]} ...: {done.returncode}")
+    if done.returncode != 0:
+        print(done.stdout[-2000:], done.stderr[-2000:])
+    return int(done.returncode != 0)
 
 
 shortest = blocks("harness/guide/tutorial.md")[0]
@@ -66,9 +81,10 @@ for page in PAGES:
         folder = pathlib.Path(name)
         prepare(folder, page)
         for block in blocks(page):
-            done = run(block, folder)
-            print(f"{page}: {block.splitlines()[0]} ...: {done.returncode}")
-            if done.returncode != 0:
-                failed += 1
-                print(done.stdout[-2000:], done.stderr[-2000:])
+            failed += tell(page, block, run_lines(block, folder))
+        python = blocks(page, "python")
+        if python and has_python_of_notebooks():
+            failed += tell(page, python[0], run([sys.executable, "-c", "\n".join(python)], folder))
+        for script in blocks(page, "pvpython") if shutil.which("pvpython") else []:
+            failed += tell(page, script, run(["pvpython", "-c", script], folder))
 sys.exit(1 if failed else 0)

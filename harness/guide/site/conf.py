@@ -26,7 +26,7 @@ html_copy_source = False
 html_show_search_summary = False  # it would fetch pages, which a browser refuses without a server
 copybutton_exclude = ".linenos, .gp"
 
-PAGES = ["tutorial", "schemes", "accuracy", "scenes", "calibrating", "nights", "solvers", "measure", "lammps", "files", "scene",
+PAGES = ["tutorial", "schemes", "accuracy", "scenes", "calibrating", "nights", "solvers", "measure", "lammps", "files", "notebooks", "scene",
          "theory", "troubleshooting", "contributing"]
 
 
