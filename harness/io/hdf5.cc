@@ -125,10 +125,7 @@ std::string Hdf5Group::place_of(const std::string& name) const {
 }
 
 Hdf5Group Hdf5Group::create_group(const std::string& name) {
-  // All attributes in the header: HDF5 would move more than eight of them into a heap of its own.
-  const Hdf5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_attr_phase_change(properties.get(), 1000, 1000);
-  const hid_t id = H5Gcreate2(handle_.get(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
+  const hid_t id = H5Gcreate2(handle_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   return {Hdf5Handle(written(id, place_of(name), "cannot create the group"), H5Gclose), place_of(name)};
 }
 
@@ -166,8 +163,6 @@ Hdf5Handle access_properties() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(properties.get(), H5F_CLOSE_STRONG);
-  // Groups as HDF5 1.8 and later write them: a small one takes some bytes instead of 1.3 kB, and a campaign has thousands.
-  H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   return properties;
 }
 

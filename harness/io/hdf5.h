@@ -60,7 +60,7 @@ class Hdf5Handle {
 /// What has attributes: a group or a dataset.
 class Hdf5Node {
  public:
-  /// Sets or replaces. A double must be finite, and text free of zero bytes: std::invalid_argument otherwise.
+  /// A name is given once (else MachineError). A double must be finite, and text free of zero bytes: std::invalid_argument otherwise.
   void set_attribute(const std::string& name, double value);
   void set_attribute(const std::string& name, std::int64_t value);
   void set_attribute(const std::string& name, int value) { set_attribute(name, std::int64_t{value}); }
