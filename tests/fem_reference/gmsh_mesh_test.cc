@@ -114,7 +114,9 @@ void write(const std::function<void()>& make, const std::filesystem::path& file,
   gmsh::write(file.string());
 }
 
-using Place = std::pair<double, double>;
+/// In 1e-12 m: later versions of gmsh move the nodes of periodic edges, as they read them, by 1e-15 m.
+using Place = std::pair<std::int64_t, std::int64_t>;
+Place place_of(double x, double y) { return {std::llround(x * 1e12), std::llround(y * 1e12)}; }
 using Elements = std::multiset<std::vector<Place>>;  ///< corners in the file's order
 
 struct Content {
@@ -129,7 +131,7 @@ Content as_gmsh_reads(const std::filesystem::path& file) {
   std::vector<double> coordinates, parameters;
   gmsh::model::mesh::getNodes(numbers, coordinates, parameters);
   std::map<std::size_t, Place> places_of;
-  for (std::size_t n = 0; n < numbers.size(); ++n) places_of[numbers[n]] = {coordinates[3 * n], coordinates[3 * n + 1]};
+  for (std::size_t n = 0; n < numbers.size(); ++n) places_of[numbers[n]] = place_of(coordinates[3 * n], coordinates[3 * n + 1]);
   const auto elements = [&places_of](int dimension, int entity, std::size_t corners) {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
@@ -163,7 +165,7 @@ Content as_we_read(const std::filesystem::path& file) {
   const meshes::MshFile msh = meshes::parse_msh(std::string(std::istreambuf_iterator<char>(stream), {}));
   const auto places = [&](const auto& tags) {
     std::vector<Place> result;
-    for (const auto tag : tags) result.emplace_back(msh.nodes.at(tag)[0], msh.nodes.at(tag)[1]);
+    for (const auto tag : tags) result.push_back(place_of(msh.nodes.at(tag)[0], msh.nodes.at(tag)[1]));
     return result;
   };
   Content content;

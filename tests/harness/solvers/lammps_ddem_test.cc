@@ -110,8 +110,15 @@ TEST_F(OnLammps, OtherIntegratorsMoveDiscs) {
 /// Rows of numbers that the script printed.
 std::vector<std::vector<double>> printed_rows(const std::string& said) {
   std::vector<std::vector<double>> rows;
-  std::istringstream lines(said.substr(std::min(said.size(), said.find("\nStep "))));
-  for (std::string line; std::getline(lines, line) && !line.starts_with("Loop");) {
+  std::istringstream lines(said);
+  bool begun = false;  // by a line "Step ...", which later versions of LAMMPS indent
+  for (std::string line; std::getline(lines, line) && !(begun && line.starts_with("Loop"));) {
+    if (!begun) {
+      std::string first;
+      std::istringstream(line) >> first;
+      begun = first == "Step";
+      continue;
+    }
     std::istringstream words(line);
     std::vector<double> row;
     for (double value = 0.0; words >> value;) row.push_back(value);
