@@ -357,7 +357,9 @@
     host.querySelector('.csv')?.replaceChildren(link, navigator.clipboard ? ' ' : '', navigator.clipboard ? copy : '', note);
   };
 
-  const draw = (host) => {
+  // Between two panels the page listens.
+  const breath = () => new Promise((done) => setTimeout(done));
+  const draw = async (host) => {
     const figure = readFigure(host.querySelector('script.figure-data'));
     const live = host.querySelector('.live'),
       panels = make('div', { className: 'panels' });
@@ -386,31 +388,32 @@
     live.append(legend(figure, plots), strips.length ? filmControls(strips, views) : '', panels);
     host.classList.add('is-live');
     offerCsv(host, figure);
-    return Promise.all(jobs.map((job) => job())).then(() => {
-      host.dataset.drawn = 'true';
-    });
+    for (const job of jobs) {
+      await job();
+      await breath();
+    }
+    host.dataset.drawn = 'true';
   };
 
   const source = document.getElementById('plotly');
   if (!source || !palette) return;
-  // 1.5 MB, compiled when the first figure comes near, and not before the page is there.
+  // 1.5 MB, for which the page does not listen for 0.4 s: when the first figure comes near, not while it opens.
   let library;
   const plotly = () =>
     (library ??= new Promise((done) => {
-      setTimeout(() => {
-        document.head.append(make('script', { textContent: source.textContent }));
-        done();
-      });
+      document.head.append(make('script', { textContent: source.textContent }));
+      setTimeout(done);
     }));
+  let queue = breath();
   const waiting = new IntersectionObserver(
     (entries) => {
       for (const entry of entries) {
         if (!entry.isIntersecting) continue;
         waiting.unobserve(entry.target);
-        plotly().then(() => draw(entry.target));
+        queue = queue.then(plotly).then(() => draw(entry.target));
       }
     },
-    { rootMargin: '800px' },
+    { rootMargin: '300px' },
   );
   for (const script of all('script.figure-data')) waiting.observe(script.closest('figure'));
 })();

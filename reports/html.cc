@@ -51,6 +51,15 @@ void append_headlines(Markup& out, const Report& report) {
   out.close().newline();
 }
 
+void append_nights(Markup& out, const Report& report) {
+  if (report.nights.empty()) return;
+  out.open("ol", {{"class", "nights"}, {"aria-label", "Nights"}});
+  for (const NightTile& night : report.nights) {
+    out.open("li", {{"class", state_class(night.state)}, {"title", night.label}}).element("span", {{"class", "hidden"}}, night.label).close();
+  }
+  out.close().newline();
+}
+
 void append_contents(Markup& out, const Report& report, const std::vector<std::string>& section_ids) {
   const auto entry = [&](const std::string& id, std::string_view text) {
     out.open("li").element("a", {{"href", "#" + id}}, text).close();
@@ -85,6 +94,7 @@ std::string render(const Report& report, const Detail& detail, const HtmlOptions
   out.raw("<!DOCTYPE html>\n").open("html", {{"lang", "en"}}).newline();
   append_head(out, report, options.campaign);
   out.open("body").newline().open("header").element("h1", {}, report.title.empty() ? "Report" : report.title);
+  append_nights(out, report);
   append_conclusion(out, report);
   append_headlines(out, report);
   for (const std::string& line : report.summary) out.element("p", {{"class", "note"}}, line);

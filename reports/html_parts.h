@@ -34,6 +34,9 @@ void append_conclusion(Markup& out, const Report& report);
 /// The cases that passed with the least margin.
 void append_nearest(Markup& out, const std::vector<Verdict>& verdicts);
 
+/// "pass", "skip", "fail" or "error", for the style sheet.
+std::string_view state_class(State state);
+
 void append_badge(Markup& out, State state);
 
 /// Id of a case in the page.

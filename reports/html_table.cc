@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "reports/column_format.h"
 #include "reports/html_parts.h"
+#include "reports/number.h"
 
 namespace ddem::reports {
 namespace {
@@ -20,6 +23,24 @@ bool is_numeric_column(const Table& table, std::size_t column) {
   return false;
 }
 
+// The numbers beside it say what matters.
+void append_spark(Markup& out, const Spark& spark) {
+  constexpr double width = 120.0, height = 22.0, top = 1.25;
+  const double step = spark.values.size() > 1 ? width / static_cast<double>(spark.values.size() - 1) : 0.0;
+  std::string path, end;
+  for (std::size_t k = 0; k < spark.values.size(); ++k) {
+    const double v = spark.values[k];
+    if (!std::isfinite(v)) continue;
+    const bool goes_on = k > 0 && std::isfinite(spark.values[k - 1]);
+    end = coordinate(step * static_cast<double>(k)) + " " + coordinate(height * (1.0 - std::clamp(v, 0.0, top) / top));
+    path += (goes_on ? "L" : "M") + end;
+  }
+  out.open("td", {{"class", "spark"}}).open("svg", {{"aria-hidden", "true"}, {"viewBox", fmt::format("-3 -3 {} {}", width + 6.0, height + 6.0)}});
+  out.empty("path", {{"class", "limit"}, {"d", "M0 " + coordinate(height * (1.0 - 1.0 / top)) + "h" + coordinate(width)}});
+  if (!path.empty()) out.empty("path", {{"class", "course"}, {"d", path}}).empty("path", {{"class", "now"}, {"d", "M" + end + "h0"}});
+  out.close().close();
+}
+
 ColumnFormat format_of(const Table& table, std::size_t column) {
   std::vector<double> values;
   for (const auto& row : table.rows) {
@@ -31,6 +52,8 @@ ColumnFormat format_of(const Table& table, std::size_t column) {
 void append_cell(Markup& out, const Cell& cell, const ColumnFormat& format, bool row_heading) {
   if (const double* number = std::get_if<double>(&cell.value))
     out.element("td", {{"class", "n"}}, format.text(*number));
+  else if (const Spark* spark = std::get_if<Spark>(&cell.value))
+    append_spark(out, *spark);
   else if (row_heading)
     out.element("th", {{"scope", "row"}}, std::get<std::string>(cell.value));
   else

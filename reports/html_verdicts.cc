@@ -10,12 +10,6 @@
 namespace ddem::reports {
 namespace {
 
-std::string_view css_class(State state) {
-  if (is_pass(state)) return "pass";
-  if (state == State::skipped || state == State::no_baseline) return "skip";
-  return state == State::error ? "error" : "fail";
-}
-
 // Where the actual value is between its bounds, at a glance. The numbers are beside it.
 void append_gauge(Markup& out, const Criterion& c) {
   const double span = c.upper - c.lower;
@@ -131,7 +125,7 @@ void append_bar(Markup& out, const std::vector<const Verdict*>& sorted) {
   out.open("div", {{"class", "bar"}, {"aria-hidden", "true"}});
   for (const State state : kStatesWorstFirst)
     if (const std::size_t n = of_state(sorted, state).size(); n > 0)
-      out.element("span", {{"class", css_class(state)}, {"style", fmt::format("flex-grow:{}", n)}}, "");
+      out.element("span", {{"class", state_class(state)}, {"style", fmt::format("flex-grow:{}", n)}}, "");
   out.close().newline();
 }
 
@@ -139,7 +133,13 @@ void append_bar(Markup& out, const std::vector<const Verdict*>& sorted) {
 
 // Hundreds of them: the tick or cross before the word is the style sheet's.
 void append_badge(Markup& out, State state) {
-  out.element("span", {{"class", fmt::format("badge {}", css_class(state))}}, to_string(state));
+  out.element("span", {{"class", fmt::format("badge {}", state_class(state))}}, to_string(state));
+}
+
+std::string_view state_class(State state) {
+  if (is_pass(state)) return "pass";
+  if (state == State::skipped || state == State::no_baseline) return "skip";
+  return state == State::error ? "error" : "fail";
 }
 
 // No blanks in ids.

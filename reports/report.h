@@ -22,6 +22,12 @@ struct Headline {
   std::string note = {};  ///< small print, e.g. the reference beside it
 };
 
+/// A night of a history: a tile coloured by its worst state.
+struct NightTile {
+  std::string label = {};
+  State state = State::error;
+};
+
 struct Section {
   std::string heading = {};
   std::vector<std::string> paragraphs = {};
@@ -34,6 +40,7 @@ struct Report {
   std::vector<std::string> findings = {};  ///< what was found, a sentence each, in words made from the numbers
   std::vector<std::string> summary = {};   ///< paragraphs: of what the report is
   std::vector<Headline> headlines = {};
+  std::vector<NightTile> nights = {};  ///< in their order
   std::vector<Verdict> verdicts = {};  ///< in any order
   std::vector<Section> sections = {};
   std::vector<std::pair<std::string, std::string>> provenance =

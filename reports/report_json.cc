@@ -22,6 +22,15 @@ void fields(auto& archive, Is<Headline> auto& h) {
   archive("note", h.note);
 }
 
+void fields(auto& archive, Is<Spark> auto& s) {
+  archive("spark", s.values);
+}
+
+void fields(auto& archive, Is<NightTile> auto& n) {
+  archive("label", n.label);
+  archive("state", n.state);
+}
+
 void fields(auto& archive, Is<Limits> auto& l) {
   archive("lower", l.lower);
   archive("upper", l.upper);
@@ -162,6 +171,7 @@ void fields(auto& archive, Is<Report> auto& r) {
   archive("findings", r.findings);
   archive("summary", r.summary);
   archive("headlines", r.headlines);
+  archive("nights", r.nights);
   archive("verdicts", r.verdicts);
   archive("sections", r.sections);
   archive("provenance", r.provenance);
@@ -302,6 +312,8 @@ class Reader {
   void take(const Json& j, Cell& cell) {
     if (j.is_string())
       cell = Cell(j.get<std::string>());
+    else if (j.is_object())
+      take(j, cell.value.emplace<Spark>());
     else
       take(j, cell.value.emplace<double>());
   }

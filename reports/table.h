@@ -9,13 +9,19 @@
 
 namespace ddem::reports {
 
+/// A course over time, drawn small; 0 is the lower end of the box, 1 a line. NaN: a gap.
+struct Spark {
+  std::vector<double> values = {};
+};
+
 /// Built from text or any number, so that a row is written {"random", 682, 0.165}. Not finite: an en dash.
 struct Cell {
-  std::variant<std::string, double> value = {};
+  std::variant<std::string, double, Spark> value = {};
 
   Cell() = default;
   Cell(std::string text) : value(std::move(text)) {}
   Cell(const char* text) : value(std::string(text)) {}
+  Cell(Spark spark) : value(std::move(spark)) {}
   template <typename Number>
   requires(std::integral<Number> || std::floating_point<Number>) Cell(Number number)
       : value(static_cast<double>(number)) {}

@@ -136,9 +136,13 @@ std::string drawn_campaign(const std::filesystem::path& folder) {
   return reports::marked_campaign(head);
 }
 
-std::vector<ReportFile> draw_report(const reports::Report& report) {
+std::string draw_page(const reports::Report& report) {
   const std::string plotly = plotting_library();
-  std::vector<ReportFile> drawings = {{"report.html", reports::render_html(report, {.plotly = plotly, .campaign = campaign_mark(report)})}};
+  return reports::render_html(report, {.plotly = plotly, .campaign = campaign_mark(report)});
+}
+
+std::vector<ReportFile> draw_report(const reports::Report& report) {
+  std::vector<ReportFile> drawings = {{"report.html", draw_page(report)}};
   for (const reports::Section& section : report.sections) {
     for (const reports::Figure& figure : section.figures) {
       // What a file says its figures are called must not lead out of the folder.

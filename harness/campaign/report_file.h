@@ -31,6 +31,9 @@ struct ReportFile {
   std::string content;
 };
 
+/// The page alone.
+std::string draw_page(const reports::Report& report);
+
 /// report.html, and each figure as figures/ID.svg and figures/ID.csv.
 std::vector<ReportFile> draw_report(const reports::Report& report);
 

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <memory>
 
+#include "harness/campaign/report_file.h"
 #include "harness/cli/campaign_output.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/print_json.h"
@@ -15,6 +16,7 @@
 #include "harness/io/message.h"
 #include "harness/nightly/comparison.h"
 #include "harness/nightly/history.h"
+#include "harness/nightly/history_page.h"
 #include "reports/text.h"
 
 namespace ddem::harness {
@@ -75,16 +77,26 @@ void tell_of_other_files(const std::string& folder) {
   if (!names.empty()) message("{}: not called as nights, left alone: {}", folder, fmt::join(names, ", "));
 }
 
-int history(const std::string& folder, bool regressions, bool all) {
-  tell_of_other_files(folder);
-  const std::vector<nightly::Night> nights = nightly::read_history(folder);
+struct HistoryOptions {
+  std::string folder, page;
+  bool regressions = false, all = false, force = false;
+};
+
+int history(const HistoryOptions& o) {
+  if (!o.page.empty()) claim_outputs({{o.page, OutputKind::report}}, {}, o.force);
+  tell_of_other_files(o.folder);
+  const std::vector<nightly::Night> nights = nightly::read_history(o.folder);
   const std::vector<nightly::Trend> trends = nightly::trends_of(nights);
-  fmt::print("{}", reports::clean_utf8(nightly::trends_text(nights, trends, all)));
+  fmt::print("{}", reports::clean_utf8(nightly::trends_text(nights, trends, o.all)));
   for (const std::string& complaint : nightly::clock_complaints(nights, now())) fmt::print("{}\n", reports::clean_utf8(complaint));
   const bool worse = std::any_of(trends.begin(), trends.end(), [](const nightly::Trend& t) {
     return t.regressed || reports::is_failure(t.state);
   });
-  return static_cast<int>(regressions && worse ? ExitCode::verdict_failed : ExitCode::done);
+  if (!o.page.empty()) {
+    write_file(o.page, draw_page(nightly::history_page(nights)));
+    fmt::print("report: {}\n", o.page);
+  }
+  return static_cast<int>(o.regressions && worse ? ExitCode::verdict_failed : ExitCode::done);
 }
 
 }  // namespace
@@ -123,8 +135,7 @@ void add_compare_command(CLI::App& app, Action& action) {
 }
 
 void add_history_command(CLI::App& app, Action& action) {
-  auto folder = std::make_shared<std::string>();
-  auto regressions = std::make_shared<bool>(false), all = std::make_shared<bool>(false);
+  auto o = std::make_shared<HistoryOptions>();
   CLI::App* command =
       app.add_subcommand("history", "The last night against the 4, 20 and 100 nights before it");
   command->footer(
@@ -132,13 +143,13 @@ void add_history_command(CLI::App& app, Action& action) {
       "before; what is\n"
       "within three standard deviations of their scatter, or 1 % of its accuracy band, is no change; 20 % "
       "of a wall time, or 0.3 s.");
-  command->add_option("DIR", *folder, "folder of nights")->required();
-  command->add_flag("--regressions", *regressions,
+  command->add_option("DIR", o->folder, "folder of nights")->required();
+  command->add_flag("--regressions", o->regressions,
                     "exit code 1 if a metric got worse, or the last night failed");
-  command->add_flag("--all", *all, "a line for every metric");
-  command->callback([folder, regressions, all, &action] {
-    action = [folder, regressions, all] { return history(*folder, *regressions, *all); };
-  });
+  command->add_flag("--all", o->all, "a line for every metric");
+  CLI::Option* page = command->add_option("--report", o->page, "a page of all nights: a tile a night, a line a metric, trends");
+  command->add_flag("--force", o->force, "replace a file, too, that ddem did not write")->needs(page);
+  command->callback([o, &action] { action = [o] { return history(*o); }; });
 }
 
 }  // namespace ddem::harness

@@ -154,10 +154,12 @@ Report full_report() {
                .panels = {Strip{.x = {0.0, 1e-3}, .y = {0.0, 0.0}, .radius = {5e-4, 5e-4}}}};
   const Table table{.caption = "A table",
                     .columns = {{"model"}, {"speed", "m/s", 4}},
-                    .rows = {{"DEM", 2000.123}, {"none", kNan}, {"short"}}};
+                    .rows = {{"DEM", 2000.123}, {"none", kNan}, {"short"}, {"course", Spark{{0.1, kNan, 0.9, 1.1}}}}};
   return {.title = "Everything",
+          .findings = {"Waves run as they should."},
           .summary = {"One of each."},
           .headlines = {{"speed", "2000 m/s", "closed form 2001"}, {"ratio", "0.33"}},
+          .nights = {{"first: 1 of 1 passed", State::pass}, {"second: broken", State::fail}},
           .verdicts = verdicts(),
           .sections = {{.heading = "Figures",
                         .paragraphs = {"Text."},

@@ -200,6 +200,11 @@ TEST_F(Nightly, BaselinesAndNights) {
   EXPECT_EQ(history.exit_code, 0);
   EXPECT_THAT(history.standard_output, HasSubstr("3 nights"));
   EXPECT_EQ(ddem({"history", path("nights"), "--regressions"}).exit_code, 1);
+  EXPECT_EQ(ddem({"history", path("nights"), "--report", path("nights.html")}).exit_code, 0);
+  EXPECT_THAT(read_file(path("nights.html")), HasSubstr("<ol class=\"nights\""));
+  write_file(path("mine.html"), "mine");
+  EXPECT_EQ(ddem({"history", path("nights"), "--report", path("mine.html")}).exit_code, 2);
+  EXPECT_EQ(read_file(path("mine.html")), "mine");
   EXPECT_EQ(ddem({"history", path("mistyped")}).exit_code, 2);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/nightly/history_page.h"
 #include "tests/harness/nightly/made_up_nights.h"
 
 namespace ddem::harness::nightly {
@@ -140,6 +141,24 @@ TEST(HistoryFigures, AFailureComesBeforeWhatIsNearItsLimit) {
   const std::vector<Trend> urgent = most_urgent(all);
   EXPECT_EQ(urgent.front().case_id, failed.case_id);
   EXPECT_EQ(panel(figures_of(history_section(all)).at("history-metrics"), 0).title, "ERROR: static/2: right");
+}
+
+TEST(HistoryPage, HasATileANightAndTheMetricThatLostMostFirst) {
+  std::vector<Night> nights = made_up_nights(5);
+  nights[1].summary.verdicts[0].state = State::fail;
+  const reports::Report page = history_page(nights);
+  ASSERT_EQ(page.nights.size(), 5u);
+  EXPECT_EQ(page.nights[1].state, State::fail);
+  EXPECT_EQ(page.nights[4].state, State::pass);
+  EXPECT_EQ(page.findings, (std::vector<std::string>{"The last night, 2026-01-05T02:00:00Z: 12 of 12 passed. Of 5 nights 1 failed."}));
+  // "jumps" goes from 1 to 5 of 10; the others stay where they are.
+  const reports::Table& table = page.sections.front().tables.front();
+  EXPECT_EQ(std::get<std::string>(table.rows[0][1].value), "jumps");
+  EXPECT_NEAR(std::get<double>(table.rows[0][3].value), 50.0, 1e-9);
+  EXPECT_NEAR(std::get<double>(table.rows[0][4].value), 40.0, 1e-9);
+  EXPECT_EQ(std::get<reports::Spark>(table.rows[0][2].value).values.size(), 5u);
+  EXPECT_NO_THROW(reports::render_html(page));
+  EXPECT_NO_THROW(reports::render_html(history_page({made_up_night(0, 0)})));
 }
 
 }  // namespace
