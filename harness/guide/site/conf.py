@@ -4,6 +4,8 @@ import os
 import pathlib
 import re
 
+from pygments.lexers import CppLexer, PythonLexer
+
 project = "ddem"
 author = "the ddem authors"
 root_doc = "README"
@@ -11,7 +13,6 @@ extensions = ["myst_parser", "sphinx_copybutton", "sphinx.ext.mathjax"]
 exclude_patterns = ["site"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
-suppress_warnings = ["misc.highlighting_failure"]  # a name of ours marks text that a test reads
 
 html_theme = "furo"
 pygments_style, pygments_dark_style = "xcode", "github-dark"  # enough contrast for small text
@@ -50,5 +51,8 @@ def without_server(app, exception):
 
 
 def setup(app):
+    # What marks text for a test.
+    app.add_lexer("registry", CppLexer)
+    app.add_lexer("pvpython", PythonLexer)
     app.connect("source-read", prepare)
     app.connect("build-finished", without_server)
