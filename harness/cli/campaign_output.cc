@@ -8,6 +8,7 @@
 #include "harness/campaign/write_results.h"
 #include "harness/io/errors.h"
 #include "harness/io/message.h"
+#include "harness/nightly/broken_since.h"
 #include "harness/nightly/history_figures.h"
 #include "harness/provenance/provenance.h"
 #include "reports/text.h"

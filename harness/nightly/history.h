@@ -64,9 +64,6 @@ struct Trend {
 /// and of "wall time", in seconds, where less is better, and 20 % or 0.3 s no change.
 std::vector<Trend> trends_of(const std::vector<Night>& nights);
 
-/// Of every case that fails in the last night, since when it does: a sentence each, those of the longest first.
-std::vector<std::string> broken_since(const std::vector<Night>& nights);
-
 /// A line a metric that changed beyond its scatter, regressed or did not pass, or of all of them; then how
 /// many nights and metrics there are.
 std::string trends_text(const std::vector<Night>& nights, const std::vector<Trend>& trends, bool all);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "harness/nightly/baseline.h"
+#include "harness/nightly/broken_since.h"
 #include "harness/nightly/history_figures.h"
 #include "reports/margin.h"
 

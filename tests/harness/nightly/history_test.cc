@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "harness/io/errors.h"
+#include "harness/nightly/broken_since.h"
 #include "tests/harness/io/scratch.h"
 #include "tests/harness/nightly/made_up_nights.h"
 

@@ -1,0 +1,14 @@
+#pragma once
+// Since when what is broken is broken.
+
+#include <string>
+#include <vector>
+
+#include "harness/nightly/history.h"
+
+namespace ddem::harness::nightly {
+
+/// Of every case that fails in the last night, since when it does: a sentence each, those of the longest first.
+std::vector<std::string> broken_since(const std::vector<Night>& nights);
+
+}  // namespace ddem::harness::nightly
