@@ -113,7 +113,7 @@ void store_data(Hdf5Group& group, const json& data) {
       if (!value.empty()) store_list(group, name, value);
     } else if (is_matrix(value)) {
       group.write(name, value.at("values").get<std::vector<double>>(), {value.at("rows").get<std::size_t>(), value.at("columns").get<std::size_t>()});
-    } else {
+    } else if (!value.empty()) {
       Hdf5Group inside = group.create_group(name);
       store_data(inside, value);
     }

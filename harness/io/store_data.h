@@ -10,7 +10,7 @@ namespace ddem::harness {
 /// Members of an object: numbers and texts are attributes, lists of them datasets, objects groups ('/' in a name becomes ':').
 /// A list of objects that are alike is a group of columns, one dataset a member, with a row an object; others are groups by
 /// their place, "0000". A matrix is one dataset. What is null is no number: NAME_status says "none" (in columns: an entry a
-/// row). Empty texts and lists are left out.
+/// row). Empty texts, lists and objects are left out.
 void store_data(Hdf5Group& group, const nlohmann::json& data);
 
 }  // namespace ddem::harness

@@ -53,6 +53,10 @@ class StaticsStudy : public Study {
     nlohmann::json j = nlohmann::json::object();
     for (const StaticOutcome& s : strip_->found.statics) {
       nlohmann::json& outcome = j[slug_of(s.key)] = s;
+      if (!s.failure.empty()) {  // no numbers, then
+        outcome = {{"failure", s.failure}};
+        continue;
+      }
       outcome.erase("key");  // its name says it
       if (s.sections.bar == 0.0) outcome.erase("sections");
     }
