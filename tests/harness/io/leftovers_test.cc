@@ -167,7 +167,8 @@ TEST(Leftovers, ProgramsEndWithTheirCaller) {
     const int status = end_by(
         signal, [&] { run_program("sleep", {mark}); }, [&](pid_t) { expect_starts(mark); });
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
-    EXPECT_TRUE(signal == SIGKILL ? ends_soon(mark) : !runs(mark)) << signal;
+    // Also where the signal comes between the fork and its entry in our list: then by the system, when its parent has died.
+    EXPECT_TRUE(ends_soon(mark)) << signal;
   }
 }
 
