@@ -46,8 +46,6 @@ nightly::Night night_of(const PlannedCampaign& campaign, const CampaignResults& 
   return {time_of(summary), summary, work_of(campaign, results)};
 }
 
-constexpr std::size_t kToldBroken = 5;
-
 /// A history that cannot be read must not cost the results: the report says what is wrong with it.
 reports::Section trends_until(const nightly::Night& night, const std::filesystem::path& folder, std::vector<std::string>& findings) {
   try {
@@ -55,7 +53,6 @@ reports::Section trends_until(const nightly::Night& night, const std::filesystem
     nights.push_back(night);
     for (const std::string& complaint : nightly::clock_complaints(nights)) message("history: {}", complaint);
     findings = nightly::broken_since(nights);
-    if (findings.size() > kToldBroken) findings.resize(kToldBroken);
     return nightly::history_section(nights);
   } catch (const InputError& e) {
     message("no trends in the report: {}", e.what());

@@ -82,10 +82,28 @@ struct HistoryOptions {
   bool regressions = false, all = false, force = false;
 };
 
+/// No night is written over, nor becomes one by its name.
+void claim_page(const HistoryOptions& o) {
+  if (!o.page.ends_with(".html")) throw InputError(o.page + ": a page is HTML; give a name that ends in .html");
+  std::vector<std::filesystem::path> nights;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(o.folder, error)) nights.push_back(entry.path());
+  claim_outputs({{o.page, OutputKind::report}}, nights, o.force);
+}
+
+/// A report of something else stays, unless that is asked for.
+void require_same_page(const HistoryOptions& o, const std::vector<nightly::Night>& nights) {
+  std::error_code error;
+  if (o.force || !std::filesystem::exists(o.page, error) || std::filesystem::file_size(o.page, error) == 0) return;
+  if (reports::marked_campaign(read_file(o.page)) != campaign_mark(nightly::history_page(nights)))
+    throw InputError(o.page + ": is the report of something else; name another file, or give --force to replace it");
+}
+
 int history(const HistoryOptions& o) {
-  if (!o.page.empty()) claim_outputs({{o.page, OutputKind::report}}, {}, o.force);
+  if (!o.page.empty()) claim_page(o);
   tell_of_other_files(o.folder);
   const std::vector<nightly::Night> nights = nightly::read_history(o.folder);
+  if (!o.page.empty()) require_same_page(o, nights);
   const std::vector<nightly::Trend> trends = nightly::trends_of(nights);
   fmt::print("{}", reports::clean_utf8(nightly::trends_text(nights, trends, o.all)));
   for (const std::string& complaint : nightly::clock_complaints(nights, now())) fmt::print("{}\n", reports::clean_utf8(complaint));

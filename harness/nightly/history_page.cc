@@ -15,7 +15,7 @@
 namespace ddem::harness::nightly {
 namespace {
 
-constexpr std::size_t kInSight = 15, kToldBroken = 5;
+constexpr std::size_t kInSight = 15;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 reports::State worst_of(const Night& night) {
@@ -35,9 +35,8 @@ struct Course {
       if (std::isfinite(share[k])) before.push_back(share[k]);
     }
     if (before.empty()) return kNone;
-    const auto middle = before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2);
-    std::nth_element(before.begin(), middle, before.end());
-    return share.back() - *middle;
+    std::sort(before.begin(), before.end());
+    return share.back() - 0.5 * (before[(before.size() - 1) / 2] + before[before.size() / 2]);
   }
 };
 
@@ -47,7 +46,6 @@ std::vector<Course> courses_of(const std::vector<Night>& nights) {
   std::map<std::string, std::size_t> places;
   for (const reports::Verdict& v : nights.back().summary.verdicts) {
     for (const reports::Criterion& c : v.criteria) {
-      if (!reports::share_of_limit(c)) continue;
       if (places.try_emplace(metric_key(v.case_id, c.metric), courses.size()).second)
         courses.push_back({v.case_id, c.metric, std::vector<double>(nights.size(), kNone)});
     }
@@ -56,11 +54,13 @@ std::vector<Course> courses_of(const std::vector<Night>& nights) {
     for (const reports::Verdict& v : nights[n].summary.verdicts) {
       for (const reports::Criterion& c : v.criteria) {
         const auto place = places.find(metric_key(v.case_id, c.metric));
-        if (place != places.end()) courses[place->second].share[n] = reports::share_of_limit(c).value_or(kNone);
+        if (place != places.end()) courses[place->second].share[n] = std::fmax(courses[place->second].share[n], reports::share_of_limit(c).value_or(kNone));
       }
     }
   }
-  const auto rank = [](const Course& c) { return std::isfinite(c.lost()) ? c.lost() : -HUGE_VAL; };
+  std::erase_if(courses, [](const Course& c) { return std::none_of(c.share.begin(), c.share.end(), [](double v) { return std::isfinite(v); }); });
+  // What is not measured any more comes first, what is new last.
+  const auto rank = [](const Course& c) { return !std::isfinite(c.share.back()) ? HUGE_VAL : std::isfinite(c.lost()) ? c.lost() : -HUGE_VAL; };
   std::stable_sort(courses.begin(), courses.end(), [&](const Course& a, const Course& b) { return rank(a) > rank(b); });
   return courses;
 }
@@ -80,9 +80,8 @@ reports::Report history_page(const std::vector<Night>& nights) {
   const Night& last = nights.back();
   reports::Report page{.title = last.summary.title + ": its nights"};
   page.findings = broken_since(nights);
-  if (page.findings.size() > kToldBroken) page.findings.resize(kToldBroken);
   const auto failed = std::count_if(nights.begin(), nights.end(), [](const Night& n) { return reports::is_failure(worst_of(n)); });
-  page.findings.push_back(fmt::format("The last night, {}: {}. Of {} nights {} failed.", last.time, reports::headcount(last.summary.verdicts), nights.size(), failed));
+  page.findings.push_back(fmt::format("The last night, {}: {}. Nights: {}, of which {} failed.", last.time, reports::headcount(last.summary.verdicts), nights.size(), failed));
   for (const Night& night : nights) page.nights.push_back({fmt::format("{}: {}", night.time, reports::headcount(night.summary.verdicts)), worst_of(night)});
   const std::vector<Course> courses = courses_of(nights);
   const std::size_t shown = std::min(courses.size(), kInSight);

@@ -202,6 +202,14 @@ TEST_F(Nightly, BaselinesAndNights) {
   EXPECT_EQ(ddem({"history", path("nights"), "--regressions"}).exit_code, 1);
   EXPECT_EQ(ddem({"history", path("nights"), "--report", path("nights.html")}).exit_code, 0);
   EXPECT_THAT(read_file(path("nights.html")), HasSubstr("<ol class=\"nights\""));
+  EXPECT_EQ(ddem({"history", path("nights"), "--report", path("nights.html")}).exit_code, 0);  // its own
+  const auto night = std::filesystem::directory_iterator(path("nights"))->path();
+  const std::string before = read_file(night);
+  std::filesystem::create_symlink(night, path("link.html"));
+  for (const std::string& page : {night.string(), path("nights/night-000009_x.json"), path("link.html"), path("first/report.html")})
+    EXPECT_EQ(ddem({"history", path("nights"), "--report", page}).exit_code, 2) << page;
+  EXPECT_EQ(ddem({"history", path("nights"), "--report", path("link.html"), "--force"}).exit_code, 2);
+  EXPECT_EQ(read_file(night), before);
   write_file(path("mine.html"), "mine");
   EXPECT_EQ(ddem({"history", path("nights"), "--report", path("mine.html")}).exit_code, 2);
   EXPECT_EQ(read_file(path("mine.html")), "mine");

@@ -150,13 +150,17 @@ TEST(HistoryPage, HasATileANightAndTheMetricThatLostMostFirst) {
   ASSERT_EQ(page.nights.size(), 5u);
   EXPECT_EQ(page.nights[1].state, State::fail);
   EXPECT_EQ(page.nights[4].state, State::pass);
-  EXPECT_EQ(page.findings, (std::vector<std::string>{"The last night, 2026-01-05T02:00:00Z: 12 of 12 passed. Of 5 nights 1 failed."}));
+  EXPECT_EQ(page.findings, (std::vector<std::string>{"The last night, 2026-01-05T02:00:00Z: 12 of 12 passed. Nights: 5, of which 1 failed."}));
   // "jumps" goes from 1 to 5 of 10; the others stay where they are.
   const reports::Table& table = page.sections.front().tables.front();
   EXPECT_EQ(std::get<std::string>(table.rows[0][1].value), "jumps");
   EXPECT_NEAR(std::get<double>(table.rows[0][3].value), 50.0, 1e-9);
   EXPECT_NEAR(std::get<double>(table.rows[0][4].value), 40.0, 1e-9);
   EXPECT_EQ(std::get<reports::Spark>(table.rows[0][2].value).values.size(), 5u);
+  // What is not measured any more comes first.
+  nights[4].summary.verdicts[5].criteria[0].actual = std::nan("");
+  const reports::Table again = history_page(nights).sections.front().tables.front();
+  EXPECT_EQ(std::get<std::string>(again.rows[0][0].value), "static/2");
   EXPECT_NO_THROW(reports::render_html(page));
   EXPECT_NO_THROW(reports::render_html(history_page({made_up_night(0, 0)})));
 }

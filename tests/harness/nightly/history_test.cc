@@ -259,6 +259,15 @@ TEST(BrokenSince, CountsTheNightsWithoutAGap) {
   fail(0, 2), fail(2, 2), fail(3, 2), fail(4, 2);  // again since the third
   fail(3, 0);                                      // mended since
   EXPECT_EQ(broken_since(nights), (std::vector<std::string>{"energy fails since 2026-01-03T02:00:00Z, 3 nights.", "wave/jump broke this night."}));
+  // Nights without the case, or that did not run it, neither count nor end the count.
+  nights[3].summary.verdicts[2].state = reports::State::skipped;
+  EXPECT_EQ(broken_since(nights).front(), "energy fails since 2026-01-03T02:00:00Z, 2 nights.");
+  nights[3].summary.verdicts.clear();
+  EXPECT_EQ(broken_since(nights).front(), "energy fails since 2026-01-03T02:00:00Z, 2 nights.");
+  EXPECT_EQ(broken_since({nights[0]}).front(), "energy fails in its first night.");
+  for (reports::Verdict& v : nights[4].summary.verdicts) v.state = reports::State::fail;
+  EXPECT_EQ(broken_since(nights).size(), 6u);
+  EXPECT_EQ(broken_since(nights).back(), "7 more fail.");
 }
 
 }  // namespace
