@@ -15,6 +15,14 @@ constexpr double kLargest = 1e7, kSmallest = 1e-4;
 
 std::string mantissa_text(double value, int decimals) { return fmt::format("{:.{}e}", value, decimals); }
 
+/// Whether all are as short as that: a percentage in tenths, a count.
+bool have_decimals(std::span<const double> values, int decimals) {
+  const double unit = std::pow(10.0, decimals);
+  return std::all_of(values.begin(), values.end(), [unit](double v) {
+    return !std::isfinite(v) || v == 0.0 || (std::round(v * unit) != 0.0 && std::abs(v * unit - std::round(v * unit)) < 1e-9 * std::max(1.0, std::abs(v * unit)));
+  });
+}
+
 /// Decimals without zeros at the end, of a text with `decimals` of them before `end`.
 int needed(const std::string& text, std::size_t end, int decimals) {
   while (decimals > 0 && text[end - 1] == '0') --end, --decimals;
@@ -31,9 +39,14 @@ ColumnFormat::ColumnFormat(std::span<const double> values, int digits) {
     smallest = std::min(smallest, std::abs(v));
   }
   if (largest == 0.0) return;
+  digits = std::max(digits, 1);
+  for (int decimals = 0; decimals <= 2 && largest < kLargest; ++decimals) {
+    if (!have_decimals(values, decimals)) continue;
+    decimals_ = decimals;
+    return;
+  }
   const int most = std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(largest))));
   scientific_ = largest >= kLargest || largest < kSmallest || smallest < 10.0 * std::pow(10.0, -most);
-  if (largest < kLargest && std::all_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v) || v == std::floor(v); })) scientific_ = false;
   for (const double v : values) {
     if (!std::isfinite(v)) continue;
     const std::string text = scientific_ ? mantissa_text(v, digits - 1) : fmt::format("{:.{}f}", v, most);

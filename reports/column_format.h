@@ -6,7 +6,7 @@
 
 namespace ddem::reports {
 
-/// The same decimals for all: those that the largest needs for `digits` significant ones, without zeros that end all of them. Where
+/// The same decimals for all: two at most where these say all, else those that the largest needs for `digits` significant ones, without zeros that end all of them. Where
 /// the largest is very large or small, or the smallest would be left with less than two digits, all as "1.20×10⁻⁵".
 class ColumnFormat {
  public:

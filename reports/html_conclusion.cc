@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "reports/html_parts.h"
@@ -17,11 +18,11 @@ void append_case_link(Markup& out, const std::string& case_id) {
   out.open("a", {{"href", "#" + percent_encode(case_anchor(case_id))}}).element("code", {}, case_id).close();
 }
 
-/// Why, in a line: the reason, or the first criterion that does not hold.
+/// Why, in a line: the first criterion that does not hold, else the reason.
 std::string why(const Verdict& v) {
-  if (!v.reason.empty()) return v.reason;
-  const auto bad = std::find_if(v.criteria.begin(), v.criteria.end(), [](const Criterion& c) { return is_failure(c.state); });
-  return bad == v.criteria.end() ? v.title : outcome_text(*bad);
+  const auto bad = std::find_if(v.criteria.begin(), v.criteria.end(), [](const Criterion& c) { return is_failure(c.state) && std::isfinite(c.actual); });
+  if (bad != v.criteria.end()) return outcome_text(*bad);
+  return v.reason.empty() ? v.title : v.reason;
 }
 
 void append_headcount(Markup& out, const std::vector<Verdict>& verdicts) {
@@ -32,13 +33,18 @@ void append_headcount(Markup& out, const std::vector<Verdict>& verdicts) {
 }
 
 void append_broken(Markup& out, const std::vector<Verdict>& verdicts) {
+  // Each reason once: what ended a unit is that of all its cases.
   std::vector<const Verdict*> broken;
+  std::size_t count = 0;
   for (const Verdict* v : worst_first(verdicts)) {
-    if (is_failure(v->state)) broken.push_back(v);
+    if (!is_failure(v->state)) continue;
+    ++count;
+    if (std::none_of(broken.begin(), broken.end(), [v](const Verdict* b) { return why(*b) == why(*v); })) broken.push_back(v);
   }
   if (broken.empty()) return;
+  const std::size_t shown = std::min(broken.size(), kBroken);
   out.open("ol", {{"class", "broken"}}).newline();
-  for (std::size_t k = 0; k < std::min(broken.size(), kBroken); ++k) {
+  for (std::size_t k = 0; k < shown; ++k) {
     const Verdict& v = *broken[k];
     out.open("li");
     append_badge(out, v.state);
@@ -49,7 +55,7 @@ void append_broken(Markup& out, const std::vector<Verdict>& verdicts) {
     out.close().newline();
   }
   out.close().newline();
-  if (broken.size() > kBroken) out.element("p", {{"class", "note"}}, fmt::format("and {} more, below", broken.size() - kBroken)).newline();
+  if (count > shown) out.element("p", {{"class", "note"}}, fmt::format("and {} more, below", count - shown)).newline();
 }
 
 struct Near {

@@ -26,9 +26,12 @@ double Margin::scale(double width) const { return std::isfinite(width) && width 
 
 std::optional<double> share_of_limit(const Criterion& c) {
   const Margin margin(c);
-  const bool two_sided = std::isfinite(c.target) || (std::isfinite(c.lower) && std::isfinite(c.upper));
-  if (!std::isfinite(c.actual) || !margin.has_scale() || (!two_sided && !std::isfinite(c.upper))) return std::nullopt;
-  return two_sided ? std::abs(margin.of(c.actual)) : margin.of(c.actual);
+  const bool lower = std::isfinite(c.lower), upper = std::isfinite(c.upper), has_right = std::isfinite(c.target) || (lower && upper);
+  if (!std::isfinite(c.actual) || !margin.has_scale()) return std::nullopt;
+  if (!has_right && !(upper && c.upper > 0.0)) return std::nullopt;
+  const double way = margin.of(c.actual);
+  // To where no limit is, nothing is on its way.
+  return way > 0.0 ? (upper ? way : 0.0) : has_right && lower ? -way : 0.0;
 }
 
 }  // namespace ddem::reports

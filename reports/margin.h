@@ -24,7 +24,8 @@ class Margin {
   double right_ = 0.0, half_width_ = 0.0, above_ = 0.0, below_ = 0.0;
 };
 
-/// 0: right, 1: at the limit, more: beyond it. None of what was not measured, of bounds that meet, and of what only has to be large.
+/// 0: right, or on the side that has no limit; 1: at the limit, more: beyond it. None of what was not measured, of bounds that meet, and
+/// of what has neither a target nor two bounds, but for an upper bound above 0: there 0 is right.
 std::optional<double> share_of_limit(const Criterion& criterion);
 
 }  // namespace ddem::reports

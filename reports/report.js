@@ -51,6 +51,12 @@ const ddemPage = (() => {
     }
     for (const select of selects) select.addEventListener('change', apply);
     search?.addEventListener('input', apply);
+    return () => {
+      for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.show === ''));
+      for (const select of selects) select.value = '';
+      if (search) search.value = '';
+      apply();
+    };
   };
 
   // ---- Long tables: by a column, up and down.
@@ -69,6 +75,7 @@ const ddemPage = (() => {
   const setUpSorting = () => {
     for (const table of all('table.long')) {
       all('thead th', table).forEach((heading, column) => {
+        if (table.querySelector(`tbody tr > :nth-child(${column + 1}).spark`)) return;
         const button = make('button', { type: 'button', title: 'Sort' }, ...heading.childNodes);
         heading.replaceChildren(button);
         button.addEventListener('click', () => {
@@ -83,13 +90,27 @@ const ddemPage = (() => {
     }
   };
 
-  // ---- What a link leads to is open.
-  const openTarget = () => {
-    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  // ---- What a link leads to is there, and open.
+  let showAll = () => {};
+  const named = (hash) => {
+    try {
+      return document.getElementById(decodeURIComponent(hash.slice(1)));
+    } catch {
+      return null; // no text
+    }
+  };
+  const openTarget = (hash) => {
+    const target = named(hash);
+    if (target?.closest('.case[hidden], .group[hidden]')) showAll();
     for (let element = target; element; element = element.parentElement) if (element.matches('details')) element.open = true;
     target?.scrollIntoView();
   };
-  window.addEventListener('hashchange', openTarget);
+  window.addEventListener('hashchange', () => openTarget(location.hash));
+  // The same link twice changes no address.
+  document.addEventListener('click', (event) => {
+    const link = event.target.closest?.('a[href^="#case-"]');
+    if (link) openTarget(link.hash);
+  });
 
   // ---- On paper all details are open, data aside.
   let opened = [];
@@ -101,8 +122,8 @@ const ddemPage = (() => {
     for (const d of opened) d.open = false;
   });
 
-  setUpFilters();
+  showAll = setUpFilters();
   setUpSorting();
-  if (location.hash) openTarget();
+  if (location.hash) openTarget(location.hash);
   return { all, make, palette, font };
 })();

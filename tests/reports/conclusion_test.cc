@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "reports/column_format.h"
 #include "reports/margin.h"
@@ -23,6 +24,13 @@ TEST(ShareOfLimit, IsNoneWhereRightAndOneAtEitherLimit) {
   EXPECT_DOUBLE_EQ(share_of_limit(within(80, 60, 104, 100)).value(), 0.5);
   EXPECT_DOUBLE_EQ(share_of_limit({.actual = 2.5e-4, .upper = 1e-3}).value(), 0.25);
   EXPECT_DOUBLE_EQ(share_of_limit(within(75, 0, 100, std::nan(""))).value(), 0.5);
+  // Towards the side without a limit nothing is on its way.
+  const double open = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(share_of_limit(within(2687, 1980, open, 2000)), 0.0);
+  EXPECT_DOUBLE_EQ(share_of_limit(within(1990, 1980, open, 2000)).value(), 0.5);
+  EXPECT_EQ(share_of_limit(within(-5, -open, 10, 0)), 0.0);
+  EXPECT_EQ(share_of_limit({.actual = -3, .upper = 1e-3}), 0.0);
+  EXPECT_FALSE(share_of_limit({.actual = -0.456, .upper = -0.3}));
   // What was not measured, bounds that meet, and what only has to be large.
   EXPECT_FALSE(share_of_limit(within(std::nan(""), 90, 110, 100)));
   EXPECT_FALSE(share_of_limit(within(25, 25, 25, 25)));
@@ -45,6 +53,8 @@ TEST(ColumnFormat, GivesAllNumbersTheSameDecimals) {
   EXPECT_EQ(column({1.1547e10, 4.33e9}, 4), "1.155×10¹⁰ 4.330×10⁹ ");
   EXPECT_EQ(column({0.5, 1e-9}, 3), "5×10⁻¹ 1×10⁻⁹ ");
   EXPECT_EQ(column({std::nan(""), 1.5}, 3), "– 1.5 ");
+  EXPECT_EQ(column({0.1, 81.0, 1032.2}, 2), "0.1 81.0 1032.2 ");  // percentages in tenths
+  EXPECT_EQ(column({1.5}, 0), "1.5 ");
   EXPECT_EQ(column({}, 3), "");
 }
 
@@ -70,9 +80,21 @@ TEST(Conclusion, OpensWithWhatBrokeAndWhatWasFound) {
   // No more than ten, and five that broke.
   for (int k = 0; k < 12; ++k) {
     r.verdicts.push_back({.case_id = "pass-" + std::to_string(k), .state = State::pass, .criteria = {within(101, 90, 110, 100)}});
-    r.verdicts.push_back({.case_id = "fail-" + std::to_string(k), .state = State::fail, .reason = "no"});
+    r.verdicts.push_back({.case_id = "fail-" + std::to_string(k), .state = State::fail, .reason = "no " + std::to_string(k)});
   }
   expect_in_order(render_html(r), {"and 8 more, below", "The 10 cases that passed with the least margin"});
+}
+
+/// A warning beside a criterion that fails is not why; a reason that many cases share is told once.
+TEST(Conclusion, TellsWhyOnce) {
+  Report r{.title = "t"};
+  r.verdicts = {{.case_id = "bad", .state = State::fail, .reason = "a warning", .criteria = {{.metric = "speed", .actual = 3, .upper = 1, .state = State::fail}}},
+                {.case_id = "one", .state = State::error, .reason = "crashed"},
+                {.case_id = "two", .state = State::error, .reason = "crashed"}};
+  const std::string page = render_html(r), opening = page.substr(0, page.find("id=\"verdicts\""));
+  expect_in_order(opening, {"#case-one", "crashed", "#case-bad", "speed: 3", "and 1 more, below"});
+  EXPECT_EQ(opening.find("#case-two"), std::string::npos);
+  EXPECT_EQ(opening.find("a warning"), std::string::npos);
 }
 
 TEST(Tables, AreFoldedAboveFifteenRows) {

@@ -41,8 +41,8 @@ TEST(WaveFindings, SayWhatWasFound) {
             (std::vector<std::string>{
                 "In random packings DDEM F implicit reaches Poisson's ratios from 0.200 to 0.420, DEM from 0.050 to 0.300: 0.120 beyond it. Its waves took "
                 "3.0 times as long as DEM's.",
-                "P and shear waves through random packings run within 0.40 % of the static speeds between the same sections (16 waves, median 0.10 %).",
-                "P and shear waves through the lattice run within 0.20 % of the closed forms (2 waves, median 0.20 %)."}));
+                "P and shear waves through random packings run within 0.40 % of the static speeds between the same sections (median 0.10 %, waves: 16).",
+                "P and shear waves through the lattice run within 0.20 % of the closed forms (median 0.20 %, waves: 2)."}));
   EXPECT_NE(wave_findings(two_models(0.25)).front().find("DEM from 0.050 to 0.300: no more."), std::string::npos);
 }
 

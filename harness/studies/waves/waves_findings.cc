@@ -36,6 +36,10 @@ double seconds_a_wave(const StripResults& r, Model model) {
   return waves > 0 ? seconds / waves : 0.0;
 }
 
+std::string text_of(const Reach& r) {
+  return r.highest > r.lowest ? fmt::format("from {:.3f} to {:.3f}", r.lowest, r.highest) : fmt::format("of {:.3f}", r.highest);
+}
+
 std::string reach_sentence(const StripResults& r) {
   const std::optional<Reach> dem = reach_of(r, Model::dem);
   std::optional<Reach> best;
@@ -44,9 +48,8 @@ std::string reach_sentence(const StripResults& r) {
     if (reach && (!best || reach->highest > best->highest)) best = reach;
   }
   if (!dem || !best) return "";
-  std::string text = fmt::format("In random packings {} reaches Poisson's ratios from {:.3f} to {:.3f}, DEM from {:.3f} to {:.3f}", name(best->model),
-                                 best->lowest, best->highest, dem->lowest, dem->highest);
-  text += best->highest > dem->highest ? fmt::format(": {:.3f} beyond it.", best->highest - dem->highest) : ": no more.";
+  std::string text = fmt::format("In random packings {} reaches Poisson's ratios {}, DEM {}", name(best->model), text_of(*best), text_of(*dem));
+  text += best->highest - dem->highest >= 0.0005 ? fmt::format(": {:.3f} beyond it.", best->highest - dem->highest) : ": no more.";
   const double cost = seconds_a_wave(r, best->model), of_dem = seconds_a_wave(r, Model::dem);
   if (cost > 0.0 && of_dem > 0.0) text += fmt::format(" Its waves took {:.1f} times as long as DEM's.", cost / of_dem);
   return text;
@@ -65,8 +68,9 @@ std::vector<double> deviations(const StripResults& r, StripPacking packing, doub
 
 std::string speed_sentence(const std::vector<double>& sorted, const char* of_what, const char* reference) {
   if (sorted.empty()) return "";
-  return fmt::format("P and shear waves through {} run within {:.2f} % of {} ({} waves, median {:.2f} %).", of_what, 100.0 * sorted.back(), reference,
-                     sorted.size(), 100.0 * sorted[sorted.size() / 2]);
+  const double median = 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
+  return fmt::format("P and shear waves through {} run within {:.2f} % of {} (median {:.2f} %, waves: {}).", of_what, 100.0 * sorted.back(), reference,
+                     100.0 * median, sorted.size());
 }
 
 }  // namespace
