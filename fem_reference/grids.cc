@@ -1,17 +1,11 @@
 #include "fem_reference/grids.h"
 
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
 
-#include "fem_reference/file_limit.h"
 #include "meshes/strip_mesh.h"
 #include "meshes/user_mesh.h"
 
@@ -19,18 +13,6 @@ namespace ddem::fem {
 namespace {
 
 using Triangulation = dealii::Triangulation<2>;
-
-// gmsh places the vertices of a transfinite curve with an error of 1e-9 of its length: too much for deal.II's
-// matching of periodic faces. In units of elements they are whole numbers.
-void snap_vertices(Triangulation& grid) {
-  dealii::GridTools::transform(
-      [](const dealii::Point<2>& vertex) {
-        const dealii::Point<2> snapped(std::round(vertex[0]), std::round(vertex[1]));
-        if (snapped.distance(vertex) > 1e-3) throw std::runtime_error("gmsh's mesh is not transfinite");
-        return snapped;
-      },
-      grid);
-}
 
 Grid make_grid(const meshes::QuadMesh& mesh, double unit) {
   std::vector<dealii::Point<2>> vertices;
@@ -62,29 +44,17 @@ std::string each_line_after(const std::string& start, const std::string& lines) 
 }  // namespace
 
 Grid rectangle_grid(unsigned nx, unsigned ny) {
-  std::string name = std::filesystem::temp_directory_path() / "ddem-fem-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a directory like " + name);
-  const std::filesystem::path folder = name;
-  auto triangulation = std::make_unique<Triangulation>();
-  try {
-    meshes::write_strip_mesh({double(nx), double(ny), nx, ny}, folder / "strip.msh");
-    std::ifstream stream(folder / "strip.msh");
-    dealii::GridIn<2> reader(*triangulation);
-    reader.read_msh(stream);
-  } catch (const dealii::ExceptionBase&) {  // of a file that is not whole; gmsh does not tell why
-    std::error_code missing;
-    const auto bytes = std::filesystem::file_size(folder / "strip.msh", missing);
-    std::filesystem::remove_all(folder);
-    const std::string why = !missing && bytes >= file_size_limit() ? ": " + file_error_text(EFBIG) : "";
-    throw std::runtime_error("cannot write a mesh to " + (folder / "strip.msh").string() + ", and read it back" + why);
-  } catch (...) {
-    std::filesystem::remove_all(folder);
-    throw;
+  meshes::QuadMesh mesh = meshes::strip_mesh({double(nx), double(ny), nx, ny});
+  if (mesh.quads.size() != std::size_t{nx} * ny) throw std::runtime_error("gmsh made another mesh");
+  // Its errors are too large for deal.II's matching of periodic faces. In units of elements vertices are whole numbers.
+  for (auto& vertex : mesh.vertices) {
+    for (double& coordinate : vertex) {
+      const double snapped = std::round(coordinate);
+      if (std::abs(snapped - coordinate) > 1e-3) throw std::runtime_error("gmsh's mesh is not transfinite");
+      coordinate = snapped;
+    }
   }
-  std::filesystem::remove_all(folder);
-  if (triangulation->n_active_cells() != std::size_t{nx} * ny) throw std::runtime_error("gmsh made another mesh");
-  snap_vertices(*triangulation);
-  return {std::move(triangulation), double(nx), double(ny)};
+  return make_grid(mesh, 1.0);
 }
 
 Grid user_grid(const StripCase& strip) {

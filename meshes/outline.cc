@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "meshes/msh_source.h"
-#include "meshes/strip_mesh.h"
+#include "meshes/quad_mesh.h"
 
 namespace ddem::meshes {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/strip_mesh.h"
+#include "meshes/quad_mesh.h"
 
 namespace ddem::meshes {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <gmsh.h>
 
+#include <map>
 #include <stdexcept>
+#include <vector>
 
 #include "meshes/gmsh_session.h"
 
@@ -30,12 +32,45 @@ void make_mesh(const StripGeometry& g) {
   gmsh::model::mesh::generate(2);
 }
 
+constexpr int kLine = 1, kQuad = 3;  // gmsh's types of elements
+
+/// Tags of the corners of an entity's elements of a type (of all entities: -1), one element after the other.
+std::vector<std::size_t> corners_of(int type, int entity) {
+  std::vector<std::size_t> elements, corners;
+  gmsh::model::mesh::getElementsByType(type, elements, corners, entity);
+  return corners;
+}
+
+QuadMesh read_model(const StripGeometry& g) {
+  QuadMesh mesh;
+  mesh.length = g.length, mesh.width = g.width;
+  std::vector<std::size_t> tags;
+  std::vector<double> places, parameters;
+  gmsh::model::mesh::getNodes(tags, places, parameters);
+  std::map<std::size_t, unsigned> vertex_of;
+  for (std::size_t n = 0; n < tags.size(); ++n) {
+    vertex_of[tags[n]] = static_cast<unsigned>(n);
+    mesh.vertices.push_back({places[3 * n], places[3 * n + 1]});
+  }
+  for (const unsigned id : {left_id, right_id, bottom_id, top_id}) {
+    std::vector<int> curves;
+    gmsh::model::getEntitiesForPhysicalGroup(1, static_cast<int>(id), curves);
+    for (const int curve : curves) {
+      const auto c = corners_of(kLine, curve);
+      for (std::size_t k = 0; k < c.size(); k += 2) mesh.edges.push_back({{vertex_of.at(c[k]), vertex_of.at(c[k + 1])}, id});
+    }
+  }
+  const auto c = corners_of(kQuad, -1);
+  for (std::size_t k = 0; k < c.size(); k += 4) mesh.quads.push_back({vertex_of.at(c[k]), vertex_of.at(c[k + 1]), vertex_of.at(c[k + 2]), vertex_of.at(c[k + 3])});
+  return mesh;
+}
+
 }  // namespace
 
-void write_strip_mesh(const StripGeometry& geometry, const std::filesystem::path& file) {
-  with_gmsh<std::runtime_error>([&] {
+QuadMesh strip_mesh(const StripGeometry& geometry) {
+  return with_gmsh<std::runtime_error>([&] {
     make_mesh(geometry);
-    gmsh::write(file.string());
+    return read_model(geometry);
   });
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 // A user's mesh of the strip: a .msh file of quadrilaterals with its edges as physical curves.
 
-#include <array>
 #include <filesystem>
-#include <utility>
-#include <vector>
+#include <string_view>
 
 #include "meshes/mesh_error.h"
+#include "meshes/quad_mesh.h"
 
 namespace ddem::meshes {
 
@@ -18,13 +17,6 @@ inline constexpr double side_tolerance = 1e-6, partner_tolerance = 1e-4;
 struct StripSpec {
   double length = 0.0, width = 0.0;  ///< m
   bool periodic = false;             ///< top and bottom
-};
-
-struct QuadMesh {
-  double length = 0.0, width = 0.0;                                ///< m, of the mesh itself
-  std::vector<std::array<double, 2>> vertices;                     ///< m, from the lower left corner
-  std::vector<std::array<unsigned, 4>> quads;                      ///< vertices counterclockwise
-  std::vector<std::pair<std::array<unsigned, 2>, unsigned>> edges;  ///< of the outline: vertices, and left_id .. top_id (strip_mesh.h)
 };
 
 /// Reads and checks it: the elements cover the rectangle once, sharing whole edges; each edge of the outline is in that one

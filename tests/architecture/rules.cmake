@@ -6,7 +6,7 @@ set(may_include_dem dem)
 set(may_include_meshes meshes dem)
 set(may_include_reports reports)
 # Of dem/core what knows nothing of discs: threads, and filters of leapfrog states.
-set(may_include_fem_reference fem_reference dem/core/team.h dem/core/time_filter.h meshes/strip_mesh.h meshes/user_mesh.h)
+set(may_include_fem_reference fem_reference dem/core/team.h dem/core/time_filter.h meshes/quad_mesh.h meshes/strip_mesh.h meshes/user_mesh.h)
 set(may_include_harness harness reports dem meshes/packings)
 
 # The method on LAMMPS: the styles know of ours the parameters of laws alone, and nothing of ours knows the styles.

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/work_folder.h"
+
 namespace ddem::fem::test {
 
 struct Signals {
@@ -116,48 +118,34 @@ struct Outcome {
   std::string output, errors;
 };
 
-/// A directory of its own, gone with the object.
-class Workplace {
+/// A directory in which the program runs.
+class Workplace : public ddem::test::WorkFolder {
  public:
-  Workplace() {
-    std::string name = std::filesystem::temp_directory_path() / "fem-test-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-    folder_ = name;
-  }
-  ~Workplace() { std::filesystem::remove_all(folder_); }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    std::ofstream(path() / name, std::ios::binary) << text;
   }
 
   std::string read(const std::string& name) const {
     std::ostringstream text;
-    text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+    text << std::ifstream(path() / name, std::ios::binary).rdbuf();
     return text.str();
   }
 
   std::size_t file_count() const {
-    const std::filesystem::directory_iterator files(folder_);
+    const std::filesystem::directory_iterator files(path());
     return static_cast<std::size_t>(std::distance(begin(files), end(files)));
   }
 
   /// Runs ddem-fem in the folder with arguments as a shell takes them, under `launcher`.
   Outcome run(const std::string& arguments, const std::string& launcher = "") const {
     const std::string command =
-        "cd '" + folder_.string() + "' && " + launcher + "'" DDEM_FEM_PROGRAM "' " + arguments + " > .output 2> .errors";
+        "cd '" + path().string() + "' && " + launcher + "'" DDEM_FEM_PROGRAM "' " + arguments + " > .output 2> .errors";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".output"), read(".errors")};
-    std::filesystem::remove(folder_ / ".output");
-    std::filesystem::remove(folder_ / ".errors");
+    std::filesystem::remove(path() / ".output");
+    std::filesystem::remove(path() / ".errors");
     return outcome;
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 }  // namespace ddem::fem::test

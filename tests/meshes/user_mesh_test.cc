@@ -12,6 +12,7 @@
 
 #include "meshes/msh_file.h"
 #include "tests/support/strip_meshes.h"
+#include "tests/support/work_folder.h"
 
 namespace ddem::meshes {
 namespace {
@@ -188,24 +189,8 @@ TEST(MshText, SaysWhatIsWrongAndInWhichLine) {
   EXPECT_NO_THROW(parse_user_mesh(crlf, test::test_strip));
 }
 
-class Folder {
- public:
-  Folder() {
-    std::string name = std::filesystem::temp_directory_path() / "user-mesh-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-    path_ = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 TEST(MshText, NothingButAFileIsRead) {
-  const Folder folder;
+  const test::WorkFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   std::ofstream(folder / "empty");
   std::ofstream(folder / "huge") << "$MeshFormat";
