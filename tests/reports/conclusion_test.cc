@@ -55,6 +55,7 @@ TEST(ColumnFormat, GivesAllNumbersTheSameDecimals) {
   EXPECT_EQ(column({std::nan(""), 1.5}, 3), "– 1.5 ");
   EXPECT_EQ(column({0.1, 81.0, 1032.2}, 2), "0.1 81.0 1032.2 ");  // percentages in tenths
   EXPECT_EQ(column({1.5}, 0), "1.5 ");
+  EXPECT_EQ(column({1.5, 1e-12}, 2), "1.5×10⁰ 1.0×10⁻¹² ");  // which is not 0.0
   EXPECT_EQ(column({}, 3), "");
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "harness/studies/finite_elements/finite_elements_verdicts.h"
+#include "harness/studies/schemes/schemes_verdicts.h"
 #include "harness/studies/waves/waves_findings.h"
 
 namespace ddem::harness {
@@ -51,6 +53,32 @@ TEST(WaveFindings, AreNoneOfWhatWasNotMeasured) {
   for (WaveOutcome& w : r.waves) w.speed.reset();
   EXPECT_TRUE(wave_findings(r).empty());
   EXPECT_TRUE(wave_findings({}).empty());
+}
+
+TEST(ContinuumFinding, IsTheWorstOfThePlaneWaves) {
+  StripResults r;
+  EXPECT_EQ(continuum_finding(r), "");
+  const auto add = [&r](StripWave wave, std::optional<double> speed) {
+    FemOutcome f;
+    f.wave = wave, f.speed = speed, f.analytical_speed = 2000.0;
+    r.fem.push_back(f);
+  };
+  add(StripWave::bar, 1900.0);
+  add(StripWave::shear, std::nullopt);
+  EXPECT_EQ(continuum_finding(r), "");
+  add(StripWave::shear, 1999.0);
+  add(StripWave::p, 2000.5);
+  EXPECT_EQ(continuum_finding(r), "Finite elements with the static moduli of the packings meet the continuum's P and shear speeds within 0.05 % (runs: 2).");
+}
+
+TEST(ReachFinding, IsTheHighestOfEachScheme) {
+  SchemeStudy study;
+  EXPECT_EQ(reach_finding(study), "");
+  study.reach_poisson_ratio = 0.49;
+  study.reach = {{"implicit", {{0.1, 0.35, 0.0}, {10.0, 0.48, 0.0}}}, {"lagged", {{0.4, 0.386, 0.0}, {1.5, std::nullopt, 0.0}}}, {"none", {{0.4, std::nullopt, 0.0}}}};
+  EXPECT_EQ(reach_finding(study),
+            "The lattice of νₚ = 0.49 without tangential stiffness reaches Poisson's ratios of 1/3 with rigid discs, with softer ones by scheme: implicit 0.480 "
+            "(kₙ/Eₚ = 10); lagged 0.386 (kₙ/Eₚ = 0.4).");
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/campaign/pieces.h"
 #include "harness/studies/finite_elements/finite_elements_run.h"
@@ -46,14 +45,7 @@ class FiniteElementsStudy : public Study {
 
   void introduce(reports::Report& report) const override {
     const StripResults& r = strip_->found;
-    double worst = 0.0;
-    int measured = 0;
-    for (const FemOutcome& f : r.fem) {
-      if (f.wave == StripWave::bar || !f.speed) continue;
-      ++measured;
-      worst = std::max(worst, std::abs(*f.speed / f.analytical_speed - 1.0));
-    }
-    if (measured > 0) report.findings.push_back(fmt::format("Finite elements with the static moduli of the packings meet the continuum's P and shear speeds within {:.2g} % ({} runs).", 100.0 * worst, measured));
+    if (std::string finding = continuum_finding(r); !finding.empty()) report.findings.push_back(std::move(finding));
     report.provenance.emplace_back("finite-element runs", r.fem_failure.empty() ? std::to_string(r.fem.size()) : r.fem_failure);
   }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "harness/studies/strip/criteria.h"
 
 namespace ddem::harness {
@@ -18,6 +21,18 @@ Verdict fem_verdict(const StripResults& r, const FemOutcome& f) {
                                  : "plane waves keep their shape: sqrt(G/rho), sqrt(E/(rho (1 - nu^2))) or, with nu = 0, sqrt(E/rho)")};
   conclude(v);
   return v;
+}
+
+std::string continuum_finding(const StripResults& r) {
+  double worst = 0.0;
+  int measured = 0;
+  for (const FemOutcome& f : r.fem) {
+    if (f.wave == StripWave::bar || !f.speed) continue;
+    ++measured;
+    worst = std::max(worst, std::abs(*f.speed / f.analytical_speed - 1.0));
+  }
+  if (measured == 0) return "";
+  return fmt::format("Finite elements with the static moduli of the packings meet the continuum's P and shear speeds within {:.2g} % (runs: {}).", 100.0 * worst, measured);
 }
 
 }  // namespace ddem::harness

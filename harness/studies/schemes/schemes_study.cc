@@ -1,6 +1,4 @@
 // Which scheme to choose: energy, order, reach; and how far deformable discs reach.
-#include <fmt/format.h>
-
 #include "harness/campaign/pieces.h"
 #include "harness/studies/schemes/schemes_figures.h"
 #include "harness/studies/schemes/schemes_verdicts.h"
@@ -30,17 +28,7 @@ class SchemesStudy : public Study {
   }
 
   void introduce(reports::Report& report) const override {
-    std::vector<std::string> reached;
-    for (const ReachCurve& curve : schemes_.reach) {
-      const ReachPoint* best = nullptr;
-      for (const ReachPoint& p : curve.points) {
-        if (p.poisson && (best == nullptr || *p.poisson > *best->poisson)) best = &p;
-      }
-      if (best != nullptr) reached.push_back(fmt::format("{} {:.3f} (kₙ/Eₚ = {:g})", curve.scheme, *best->poisson, best->softness));
-    }
-    if (!reached.empty())
-      report.findings.push_back(fmt::format("The lattice of νₚ = {:g} without tangential stiffness reaches Poisson's ratios of 1/3 with rigid discs, with softer ones by scheme: {}.",
-                                            schemes_.reach_poisson_ratio, fmt::join(reached, "; ")));
+    if (std::string finding = reach_finding(schemes_); !finding.empty()) report.findings.push_back(std::move(finding));
   }
 
   std::vector<reports::Section> sections() const override {

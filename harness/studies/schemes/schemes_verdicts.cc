@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "harness/studies/strip/criteria.h"
 
 namespace ddem::harness {
@@ -55,6 +58,20 @@ Verdict range_verdict(const RangeStudy& study) {
   }
   conclude_study(v);
   return v;
+}
+
+std::string reach_finding(const SchemeStudy& study) {
+  std::vector<std::string> reached;
+  for (const ReachCurve& curve : study.reach) {
+    const ReachPoint* best = nullptr;
+    for (const ReachPoint& p : curve.points) {
+      if (p.poisson && (best == nullptr || *p.poisson > *best->poisson)) best = &p;
+    }
+    if (best != nullptr) reached.push_back(fmt::format("{} {:.3f} (kₙ/Eₚ = {:g})", curve.scheme, *best->poisson, best->softness));
+  }
+  if (reached.empty()) return "";
+  return fmt::format("The lattice of νₚ = {:g} without tangential stiffness reaches Poisson's ratios of 1/3 with rigid discs, with softer ones by scheme: {}.",
+                     study.reach_poisson_ratio, fmt::join(reached, "; "));
 }
 
 }  // namespace ddem::harness

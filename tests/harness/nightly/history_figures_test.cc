@@ -157,6 +157,14 @@ TEST(HistoryPage, HasATileANightAndTheMetricThatLostMostFirst) {
   EXPECT_NEAR(std::get<double>(table.rows[0][3].value), 50.0, 1e-9);
   EXPECT_NEAR(std::get<double>(table.rows[0][4].value), 40.0, 1e-9);
   EXPECT_EQ(std::get<reports::Spark>(table.rows[0][2].value).values.size(), 5u);
+  // The median of an even number of nights is between two; of two criteria for one metric the tighter one counts.
+  nights[0].summary.verdicts[1].criteria[0].actual = nights[2].summary.verdicts[1].criteria[0].actual = 103.0;
+  for (Night& night : nights) {
+    auto& criteria = night.summary.verdicts[1].criteria;
+    criteria.push_back(criteria.front());
+    criteria.back().lower = 0.0, criteria.back().upper = 200.0;
+  }
+  EXPECT_NEAR(std::get<double>(history_page(nights).sections.front().tables.front().rows[0][4].value), 30.0, 1e-9);
   // What is not measured any more comes first.
   nights[4].summary.verdicts[5].criteria[0].actual = std::nan("");
   const reports::Table again = history_page(nights).sections.front().tables.front();
