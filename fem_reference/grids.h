@@ -1,6 +1,6 @@
 #pragma once
 // deal.II's triangulation of a strip: equal rectangles from gmsh, or a user's mesh. Edges carry the boundary ids of
-// meshes/strip_mesh.h.
+// meshes/quad_mesh.h.
 
 #include <deal.II/grid/tria.h>
 

@@ -410,7 +410,7 @@
       for (const entry of entries) {
         if (!entry.isIntersecting) continue;
         waiting.unobserve(entry.target);
-        queue = queue.then(plotly).then(() => draw(entry.target));
+        queue = queue.then(plotly).then(() => draw(entry.target)).catch(console.error); // one figure costs no other
       }
     },
     { rootMargin: '300px' },

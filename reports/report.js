@@ -63,14 +63,16 @@ const ddemPage = (() => {
   const digits = '⁰¹²³⁴⁵⁶⁷⁸⁹';
   const numberOf = (text) =>
     Number(
-      text
+      (text.trim() || 'none')
         .replace('×10', 'e')
         .replace(/[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (c) => (c === '⁻' ? '-' : digits.indexOf(c)))
         .replace(/−/g, '-'),
     );
   const compare = (a, b) => {
-    const [x, y] = [numberOf(a), numberOf(b)];
-    return Number.isFinite(x) && Number.isFinite(y) ? x - y : a.localeCompare(b, 'en', { numeric: true });
+    const [x, y] = [numberOf(a), numberOf(b)],
+      numbers = Number.isFinite(x) + Number.isFinite(y);
+    if (numbers === 1) return Number.isFinite(x) ? -1 : 1; // what is none after all numbers
+    return numbers === 2 ? x - y : a.localeCompare(b, 'en', { numeric: true });
   };
   const setUpSorting = () => {
     for (const table of all('table.long')) {

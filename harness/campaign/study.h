@@ -46,7 +46,7 @@ class Study {
   virtual std::vector<Judged> judge() const { return {}; }
   /// For the report; sections of one heading, of several studies, become one.
   virtual std::vector<reports::Section> sections() const { return {}; }
-  /// Headlines and provenance: what the report opens and ends with.
+  /// Findings (a sentence each), headlines and provenance: what the report opens and ends with.
   virtual void introduce(reports::Report&) const {}
   /// For results.h5: an object (io/store_data.h), or null.
   virtual nlohmann::json data() const;

@@ -256,6 +256,19 @@ const checkTables = async (page) => {
     const down = await cells();
     const same = (a, b) => a.length === b.length && a.every((text, i) => text === b[i]);
     check(same([...before].sort(), [...up].sort()) && same([...before].sort(), [...down].sort()), 'table: sorting loses rows');
+    const last = table.locator('thead th.n button').last();
+    if ((await last.count()) > 0) {
+      await last.click();
+      const values = await table.evaluate((t) => {
+        const column = [...t.tHead.rows[0].cells].findIndex((c) => c.hasAttribute('aria-sort'));
+        return [...t.tBodies[0].rows].map((r) => r.cells[column].textContent);
+      });
+      const plain = values.map((v) => Number(v.replace(/−/g, '-'))).filter(Number.isFinite);
+      check(
+        values.some((v) => v.includes('×')) || plain.every((v, i) => i === 0 || v >= plain[i - 1]),
+        `table: sorted as ${plain.slice(0, 8)}`,
+      );
+    }
     check(new Set(up).size < 2 || up[0] !== down[0], 'table: up and down are the same');
   }
 };
