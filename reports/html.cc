@@ -85,7 +85,19 @@ void append_script(Markup& out, std::string_view script, Markup::Attributes attr
   out.open("script", attributes).raw("//<![CDATA[\n").raw(script).raw("\n//]]>").close().newline();
 }
 
-std::string render(const Report& report, const Detail& detail, const HtmlOptions& options) {
+/// What made the report, for its figures: empty where the provenance does not say.
+std::string program_of(const Report& report) {
+  std::string program;
+  for (const auto& [key, value] : report.provenance) {
+    if (key == "version") program = "version " + value;
+    if (key == "commit" && value != "unknown") program += (program.empty() ? "commit " : ", commit ") + value;
+  }
+  return program;
+}
+
+std::string render(const Report& report, Detail detail, const HtmlOptions& options) {
+  const std::string program = program_of(report);
+  detail.program = program;
   Anchors anchors;
   std::vector<std::string> section_ids;
   for (const Section& s : report.sections) section_ids.push_back(anchors.make("section-" + s.heading));

@@ -29,7 +29,10 @@ void append_csv_link(Markup& out, const Figure& figure, const Detail& detail) {
 void append_data(Markup& out, const Figure& figure, const Detail& detail) {
   out.open("details", {{"class", "data"}}).element("summary", {}, "Data").newline();
   append_csv_link(out, figure, detail);
-  if (!figure.made_by.empty()) out.open("p", {{"class", "note"}}).text("Made by ").element("code", {}, figure.made_by).text(".").close().newline();
+  if (!figure.made_by.empty()) {
+    out.open("p", {{"class", "note"}}).text("Made by ").element("code", {}, figure.made_by);
+    out.text(detail.program.empty() ? "." : " of " + std::string(detail.program) + ".").close().newline();
+  }
   for (const Table& table : data_tables(figure, detail.table_rows)) append_table(out, table, Folding::none);
   out.close().newline();
 }

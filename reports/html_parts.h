@@ -16,6 +16,7 @@ struct Detail {
   std::size_t table_rows = 60;  ///< of each table behind a figure
   bool narrow_drawings = true;  ///< a second drawing for narrow screens
   std::size_t live_points = 0;  ///< of each series of an interactive figure; 0: figures are SVG alone
+  std::string_view program = {};  ///< that made the figures: its version and commit
 };
 
 /// `anchor`: unique within the page.

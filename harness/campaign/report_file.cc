@@ -14,6 +14,7 @@
 #include "harness/io/digest.h"
 #include "harness/io/errors.h"
 #include "harness/io/json.h"
+#include "harness/io/own_files.h"
 #include "reports/figure_data.h"
 #include "reports/report_json.h"
 #include "reports/svg.h"
@@ -71,9 +72,7 @@ Hdf5File open_results(const std::filesystem::path& path) {
 /// plotly, which the build puts beside the program; empty where it could not be fetched: then figures are
 /// SVG.
 std::string plotting_library() {
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path library =
-      program.parent_path().parent_path() / "share/ddem/plotly-cartesian.min.js";
+  const std::filesystem::path library = shared_file("plotly-cartesian.min.js");
   return std::filesystem::exists(library) ? read_file(library) : std::string();
 }
 

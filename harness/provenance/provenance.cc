@@ -11,7 +11,9 @@
 #include <thread>
 
 #include "dem/kernel/step_data.h"
+#include "harness/io/atomic_file.h"
 #include "harness/io/digest.h"
+#include "harness/io/own_files.h"
 
 namespace ddem::harness {
 namespace {
@@ -47,10 +49,18 @@ std::string libraries() {
                      hdf5_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }
 
+/// Of which the program was built; of a build without git "unknown".
+std::string commit() {
+  const std::filesystem::path file = shared_file("commit");
+  const std::string commit = std::filesystem::exists(file) ? read_file(file) : std::string();
+  return commit.empty() ? "unknown" : commit;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> provenance() {
   return {{"version", DDEM_VERSION},
+          {"commit", commit()},
           {"compiler", DDEM_COMPILER},
           {"build", DDEM_BUILD},
           {"libraries", libraries()},
@@ -62,9 +72,8 @@ std::vector<std::pair<std::string, std::string>> provenance() {
 
 const std::string& program_identity() {
   static const std::string identity = [] {
-    const auto self = std::filesystem::read_symlink("/proc/self/exe");
     std::string digests = sha256_of_file("/proc/self/exe");  // even where the file was replaced meanwhile
-    if (const auto fem = self.parent_path() / "ddem-fem"; std::filesystem::exists(fem)) digests += sha256_of_file(fem);
+    if (const auto fem = program_folder() / "ddem-fem"; std::filesystem::exists(fem)) digests += sha256_of_file(fem);
     return fmt::format("ddem {} ({:.16})", DDEM_VERSION, sha256(digests));
   }();
   return identity;

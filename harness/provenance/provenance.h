@@ -7,7 +7,7 @@
 
 namespace ddem::harness {
 
-/// Pairs of name and value: version, compiler, flags, libraries, processor, instruction set, host's cores, time (UTC).
+/// Pairs of name and value: version, commit, compiler, flags, libraries, processor, instruction set, host's cores, time (UTC).
 std::vector<std::pair<std::string, std::string>> provenance();
 
 /// The version and a digest of the running program and of ddem-fem beside it: of equal identity, and of equal inputs,

@@ -10,6 +10,7 @@
 #include "harness/io/errors.h"
 #include "harness/io/hdf5.h"
 #include "harness/io/json.h"
+#include "harness/io/own_files.h"
 #include "harness/io/subprocess.h"
 #include "harness/io/temporary_folder.h"
 #include "harness/references/plane_elasticity.h"
@@ -78,7 +79,7 @@ Json case_json(const FemCase& c) {
 }
 
 std::string fem_program() {
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "ddem-fem";
+  const std::filesystem::path program = program_folder() / "ddem-fem";
   if (!std::filesystem::exists(program)) {
     throw MachineError(program.string() + " is missing: the finite-element reference was not built (it needs deal.II, "
                                           "Debian package libdeal.ii-dev)");

@@ -11,6 +11,7 @@
 #include "dem/spectra/strain_polynomial.h"
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
+#include "harness/io/own_files.h"
 #include "harness/solvers/lammps_dump.h"
 #include "harness/solvers/ready.h"
 #include "harness/solvers/reduced.h"
@@ -197,7 +198,7 @@ SimulationResult read_motion(const fs::path& folder, const Exchange& e, const st
 }
 
 /// Beside this program, where both were built.
-std::string lammps_ddem_program() { return (fs::read_symlink("/proc/self/exe").parent_path() / "ddem-lammps").string(); }
+std::string lammps_ddem_program() { return (program_folder() / "ddem-lammps").string(); }
 
 }  // namespace
 

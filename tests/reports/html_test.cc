@@ -73,6 +73,17 @@ TEST(Html, IsWellFormedAndEscaped) {
     EXPECT_EQ(page.text.find(bad), std::string::npos) << bad;
 }
 
+TEST(Html, AFigureSaysWhichCommandOfWhichProgramMadeIt) {
+  Report report = sample();
+  report.sections[0].figures[0].made_by = "ddem validate --only one";
+  report.provenance = {{"version", "1.0"}, {"commit", "0123abc with changes"}};
+  EXPECT_NE(Page(report).text.find("Made by <code>ddem validate --only one</code> of version 1.0, commit 0123abc with changes."), std::string::npos);
+  report.provenance = {{"version", "1.0"}, {"commit", "unknown"}};
+  EXPECT_NE(Page(report).text.find("</code> of version 1.0.<"), std::string::npos);
+  report.provenance.clear();
+  EXPECT_NE(Page(report).text.find("Made by <code>ddem validate --only one</code>.<"), std::string::npos);
+}
+
 TEST(Html, NeedsNoNetwork) {
   const Page page(sample());
   EXPECT_EQ(page.count("//@src"), 0u);

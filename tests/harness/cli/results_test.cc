@@ -62,7 +62,7 @@ TEST_F(Results, Hdf5HasTheSameSignalsAndItsProvenance) {
   const Hdf5File file = Hdf5File::open(in_folder("new.h5"));
   const Hdf5Group root = file.root();
   EXPECT_EQ(root.string_attribute("scene"), small_scene());
-  for (const char* name : {"version", "compiler", "processor"})
+  for (const char* name : {"version", "commit", "compiler", "processor"})
     EXPECT_NE(root.string_attribute(name), "") << name;
   const Hdf5Group signals = root.group("signals");
   EXPECT_EQ(signals.read_doubles("time").values, table.time);
