@@ -1,11 +1,13 @@
 #include "dem/spectra/bloch.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem {
 namespace {
@@ -13,12 +15,12 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 
+constexpr const char* kBlochWaves = "Bloch waves";
 constexpr int kBonds = 3;
 constexpr int kZonePoints = 24;       // a multiple of 6: the corners (1/3, 1/3) and edge centres (1/2, 0) are on the grid
-constexpr int kRefinements = 6;       // of the grid around its worst wave, by 2 each: a maximum is then right to 1e-5
+constexpr int kGridRefinements = 6;       // of the grid around its worst wave, by 2 each: a maximum is then right to 1e-5
 // Rotations are often fastest in the centre of the zone, where the translations' z = 1 is a defective double eigenvalue.
 constexpr double kNearCentre = 1e-3;
-constexpr double kNoGrowth = 1e-9;    // round-off of an eigenvalue near a double one is 1e-16 / (omega dt), 1e-12 here
 constexpr double kStepAccuracy = 1e-4;
 constexpr double kMotion = 1e-10;     // of a unit state (u, dt v, eps): less is the round-off of strains that move nothing
 
@@ -46,12 +48,6 @@ MatrixXcd power_sum(const MatrixXcd& m, int terms) {
   MatrixXcd sum = MatrixXcd::Zero(m.rows(), m.cols());
   for (int k = 0; k < terms; ++k) sum = MatrixXcd::Identity(m.rows(), m.cols()) + m * sum;
   return sum;
-}
-
-Eigen::VectorXcd eigenvalues(const MatrixXcd& m) {
-  const Eigen::ComplexEigenSolver<MatrixXcd> solver(m, false);
-  if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvalues did not converge");
-  return solver.eigenvalues();
 }
 
 void require_positive(double value, const char* what) {
@@ -130,21 +126,18 @@ bool HexagonalBloch::conserves() const {
 
 Eigen::VectorXcd HexagonalBloch::squared_frequencies(WaveVector k) const {
   const Matrix a = scaled_stiffness(k);
-  if (!conserves()) return eigenvalues(a);
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (a + a.adjoint()), Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvalues did not converge");
-  return solver.eigenvalues().cwiseMax(0.0).cast<Complex>();
+  if (!conserves()) return eigenvalues(a, kBlochWaves);
+  return symmetric_eigenvalues(Matrix(0.5 * (a + a.adjoint())), kBlochWaves).cwiseMax(0.0).cast<Complex>();
 }
 
 std::vector<Branch> HexagonalBloch::branches(WaveVector k) const {
-  const Eigen::ComplexEigenSolver<Matrix> solver(scaled_stiffness(k));
-  if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvectors did not converge");
+  const EigenPairs pairs = eigen_pairs(scaled_stiffness(k), kBlochWaves);
   std::vector<Branch> result;
   for (int b = 0; b < dofs_; ++b) {
-    const Complex squared = solver.eigenvalues()[b];
+    const Complex squared = pairs.values[b];
     // Round-off of an eigenvalue that an energy makes real and not negative.
     const Complex omega = conserves() ? std::sqrt(std::max(0.0, squared.real())) : std::sqrt(squared);
-    result.push_back({omega, solver.eigenvectors().col(b).normalized()});
+    result.push_back({omega, pairs.vectors.col(b).normalized()});
   }
   std::sort(result.begin(), result.end(),
             [](const Branch& a, const Branch& b) { return a.frequency.real() < b.frequency.real(); });
@@ -184,7 +177,7 @@ HexagonalBloch::Matrix HexagonalBloch::lagged_map(const Cell& c, double dt) cons
 std::vector<Complex> HexagonalBloch::multipliers(WaveVector k, double dt) const {
   std::vector<Complex> z;
   if (deformation_.scheme == Scheme::lagged) {
-    for (const Complex& value : eigenvalues(lagged_map(cell(k), dt))) z.push_back(value);
+    for (const Complex& value : eigenvalues(lagged_map(cell(k), dt), kBlochWaves)) z.push_back(value);
     return z;
   }
   // Leapfrog: z - 2 + 1/z = -(omega dt)^2.
@@ -199,13 +192,12 @@ std::vector<Complex> HexagonalBloch::multipliers(WaveVector k, double dt) const 
 std::vector<WaveMode> HexagonalBloch::modes(WaveVector k, double dt) const {
   std::vector<WaveMode> result;
   if (deformation_.scheme == Scheme::lagged) {
-    const Eigen::ComplexEigenSolver<Matrix> solver(lagged_map(cell(k), dt));
-    if (solver.info() != Eigen::Success) throw std::runtime_error("Bloch waves: the eigenvectors did not converge");
+    const EigenPairs pairs = eigen_pairs(lagged_map(cell(k), dt), kBlochWaves);
     for (int m = 0; m < 2 * dofs_ + 3; ++m) {
-      Eigen::VectorXcd motion = solver.eigenvectors().col(m).head(dofs_);
+      Eigen::VectorXcd motion = pairs.vectors.col(m).head(dofs_);
       const double size = motion.norm();
       motion *= size > kMotion ? 1.0 / size : 0.0;
-      result.push_back({solver.eigenvalues()[m], motion});
+      result.push_back({pairs.values[m], motion});
     }
     return result;
   }
@@ -249,7 +241,7 @@ WorstWave HexagonalBloch::worst_wave(double dt) const {
     }
   }
   double spacing = 0.5 / kZonePoints;
-  for (int level = 0; level < kRefinements; ++level, spacing *= 0.5) {
+  for (int level = 0; level < kGridRefinements; ++level, spacing *= 0.5) {
     const double centre_a = a, centre_b = b;
     for (const double da : {-spacing, 0.0, spacing}) {
       for (const double db : {-spacing, 0.0, spacing}) look(centre_a + da, centre_b + db);

@@ -18,6 +18,9 @@
 
 namespace ddem {
 
+/// Of a step: what grows less does not grow. Round-off of an eigenvalue near a double one is 1e-16/(omega dt), 1e-12 here.
+inline constexpr double kNoGrowth = 1e-9;
+
 /// The lattice: one of its three lines of touching discs lies at `row_angle` (rad) to the x axis, which is 0 for
 /// close-packed rows along x and pi/2 (or pi/6) for rows along y.
 struct HexagonalLattice {

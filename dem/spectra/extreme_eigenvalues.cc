@@ -2,11 +2,12 @@
 
 #include <Spectra/GenEigsSolver.h>
 #include <Spectra/SymEigsSolver.h>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <random>
 #include <stdexcept>
 #include <string>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem {
 namespace {
@@ -37,10 +38,7 @@ void require_success(Spectra::CompInfo info, const char* what) {
 }  // namespace
 
 double largest_eigenvalue(LinearOperator op, const char* what) {
-  if (op.size <= kDense) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(op), Eigen::EigenvaluesOnly);
-    return solver.eigenvalues().maxCoeff();
-  }
+  if (op.size <= kDense) return symmetric_eigenvalues(dense(op), what).maxCoeff();
   Spectra::SymEigsSolver<LinearOperator> solver(op, 1, kVectors);
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, kMostIterations, residual_of(op.size));
@@ -49,10 +47,7 @@ double largest_eigenvalue(LinearOperator op, const char* what) {
 }
 
 double largest_magnitude(LinearOperator op, const char* what) {
-  if (op.size <= kDense) {
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(dense(op), false);
-    return solver.eigenvalues().cwiseAbs().maxCoeff();
-  }
+  if (op.size <= kDense) return eigenvalues(dense(op), what).cwiseAbs().maxCoeff();
   Spectra::GenEigsSolver<LinearOperator> solver(op, 2, 60);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, kMostIterations, residual_of(op.size));
@@ -78,15 +73,15 @@ std::optional<EigenPair> outstanding_eigenvector(const LinearOperator& op, doubl
     h(m, m - 1) = next.norm();
     if (h(m, m - 1) > 0.0) basis.col(m) = next / h(m, m - 1);
     if (m < first_look) continue;
-    const Eigen::EigenSolver<Eigen::MatrixXd> ritz(h.topLeftCorner(m, m));
+    const EigenPairs ritz = eigen_pairs(Eigen::MatrixXd(h.topLeftCorner(m, m)), "outstanding eigenvalue");
     Eigen::Index best = 0;
-    ritz.eigenvalues().cwiseAbs().maxCoeff(&best);
-    const std::complex<double> value = ritz.eigenvalues()[best];
+    ritz.values.cwiseAbs().maxCoeff(&best);
+    const std::complex<double> value = ritz.values[best];
     if (std::abs(value) <= outside) {
       if (m < last_look) continue;
       return std::nullopt;
     }
-    const Eigen::VectorXcd y = ritz.eigenvectors().col(best);
+    const Eigen::VectorXcd y = ritz.vectors.col(best);
     if (h(m, m - 1) * std::abs(y[m - 1]) <= residual * std::abs(value)) return EigenPair{value, basis.leftCols(m) * y};
   }
   throw std::runtime_error("outstanding eigenvalue: the Arnoldi iteration did not converge");

@@ -4,9 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "dem/spectra/dense_eigen.h"
 #include "dem/spectra/scheme_stiffness.h"
 #include "dem/spectra/strain_polynomial.h"
 
@@ -16,9 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Complex = std::complex<double>;
 
-void require_success(Eigen::ComputationInfo info) {
-  if (info != Eigen::Success) throw std::runtime_error("step map: the eigenvalues did not converge");
-}
+constexpr const char* kStepMap = "step map";
 
 Eigen::VectorXcd scaled_to_one(Eigen::VectorXcd motion) {
   Eigen::Index largest = 0;
@@ -71,13 +70,11 @@ StepMode converged_mode(const Operators& op, double dt) {
   Eigen::VectorXcd squared;
   Eigen::MatrixXcd vectors;
   if (op.symmetric) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (a + a.transpose()));
-    require_success(solver.info());
-    squared = solver.eigenvalues().cast<Complex>(), vectors = solver.eigenvectors().cast<Complex>();
+    const SymmetricPairs pairs = symmetric_pairs(0.5 * (a + a.transpose()), kStepMap);
+    squared = pairs.values.cast<Complex>(), vectors = pairs.vectors.cast<Complex>();
   } else {
-    const Eigen::EigenSolver<MatrixXd> solver(a);
-    require_success(solver.info());
-    squared = solver.eigenvalues(), vectors = solver.eigenvectors();
+    EigenPairs pairs = eigen_pairs(a, kStepMap);
+    squared = std::move(pairs.values), vectors = std::move(pairs.vectors);
   }
   Leader leader;
   const double rigid = rigid_below(squared);
@@ -133,22 +130,15 @@ Eigen::VectorXcd eigenvector_of(const MatrixXd& hessenberg, const Complex& facto
 StepMode lagged_mode(const Operators& op, const DeformationParameters& deformation, double dt) {
   const Eigen::HessenbergDecomposition<MatrixXd> reduced(lagged_map(op, deformation, dt));
   const MatrixXd hessenberg = reduced.matrixH();
-  const Eigen::EigenSolver<MatrixXd> solver(hessenberg, false);
-  require_success(solver.info());
+  const Eigen::VectorXcd factors = eigenvalues(hessenberg, kStepMap);
   Leader leader;
-  for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) leader.look(solver.eigenvalues()[k], k);
+  for (Eigen::Index k = 0; k < factors.size(); ++k) leader.look(factors[k], k);
   const Eigen::VectorXcd x = eigenvector_of(hessenberg, leader.factor());
   MatrixXd parts(x.size(), 2);  // the reflections are real
   parts << x.real(), x.imag();
   parts.applyOnTheLeft(reduced.matrixQ());
   const Eigen::VectorXcd state = parts.col(0) + Complex(0.0, 1.0) * parts.col(1);
   return {leader.factor(), scaled_to_one(state.head(op.overlap.cols()))};
-}
-
-Eigen::VectorXcd eigenvalues_of(const MatrixXd& a) {
-  const Eigen::EigenSolver<MatrixXd> solver(a, false);
-  require_success(solver.info());
-  return solver.eigenvalues();
 }
 
 /// All factors of motions that are not held.
@@ -158,13 +148,12 @@ Eigen::VectorXcd lagged_factors(const Operators& op, const DeformationParameters
   for (Eigen::Index k = 0; k < all; ++k) {
     if (k >= 2 * n || scaling[k % n] > 0.0) free.push_back(k);
   }
-  return eigenvalues_of(lagged_map(op, d, dt)(free, free));
+  return eigenvalues(MatrixXd(lagged_map(op, d, dt)(free, free)), kStepMap);
 }
 
 Eigen::VectorXcd converged_factors(const Operators& op, const SchemeStiffness& stiffness, const Eigen::VectorXd& scaling, double dt) {
   const MatrixXd a = scaled_matrix(stiffness, scaling);
-  Eigen::VectorXcd z = op.symmetric ? Eigen::VectorXcd(Eigen::SelfAdjointEigenSolver<MatrixXd>(0.5 * (a + a.transpose()), Eigen::EigenvaluesOnly).eigenvalues().cast<Complex>())
-                                    : eigenvalues_of(a);
+  Eigen::VectorXcd z = op.symmetric ? Eigen::VectorXcd(symmetric_eigenvalues(MatrixXd(0.5 * (a + a.transpose())), kStepMap).cast<Complex>()) : eigenvalues(a, kStepMap);
   const double rigid = rigid_below(z);
   for (Complex& factor : z) factor = std::abs(factor) < rigid ? 1.0 : leapfrog_factor(factor, dt);
   return z;

@@ -11,7 +11,7 @@
 namespace ddem {
 namespace {
 
-constexpr int kMostTerms = 2000;
+constexpr int kHighestDegree = 2000;
 /// Fewer than the nodes of the measured shares, which then judge them.
 constexpr int kMostLongWaveTerms = 10;
 /// Lanczos finds the radius to 1e-3 or better; beyond the interval the iteration would grow.
@@ -36,7 +36,7 @@ struct StretchedChebyshev {
 std::vector<double> uniform_zeros(double rho, double tolerance) {
   int terms = 2;
   while (!(StretchedChebyshev{terms + 1, rho}.bound() <= tolerance)) {
-    if (++terms > kMostTerms) {
+    if (++terms > kHighestDegree) {
       throw std::invalid_argument("the implicit strains of discs so soft take more than 2000 iterations a step; use solver = \"conjugate_gradients\", stiffer discs, or a larger tolerance");
     }
   }
