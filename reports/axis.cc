@@ -14,7 +14,7 @@
 namespace ddem::reports {
 namespace {
 
-constexpr double kLargest = 1e300;
+constexpr double kLargestValue = 1e300;
 
 struct Unit {
   std::string text;
@@ -85,8 +85,8 @@ std::string log_label(double value) {
 }  // namespace
 
 bool drawable(double value, Scale scale) {
-  if (!std::isfinite(value) || std::abs(value) > kLargest) return false;
-  return scale == Scale::linear || value >= 1.0 / kLargest;
+  if (!std::isfinite(value) || std::abs(value) > kLargestValue) return false;
+  return scale == Scale::linear || value >= 1.0 / kLargestValue;
 }
 
 void Extent::add(double value) {

@@ -2,10 +2,14 @@
 // Numbers for people (tables, labels) and for programs (CSV, coordinates). None of these ever prints nan or
 // inf.
 
+#include <limits>
 #include <string>
 #include <string_view>
 
 namespace ddem::reports {
+
+/// No value: a gap in a line, a dash in a table.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// For people: `digits` significant digits, without trailing zeros; "1.2×10⁻⁵" for very large and small ones,
 /// with a true minus sign; an en dash if the value is not finite.

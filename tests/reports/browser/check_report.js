@@ -213,6 +213,21 @@ const checkPaper = async (page, ids) => {
       ).length,
   );
   check(seen === ids.length, `paper: ${seen} of ${ids.length} figures are SVG`);
+  // A4 within its margins of 16 mm: nothing sticks out at the side, and what does not break fits a page.
+  const screen = page.viewportSize();
+  await page.setViewportSize({ width: 673, height: 1001 });
+  const cut = await page.evaluate(() => {
+    const what = (e) => `${e.tagName} ${e.id} ${e.textContent.trim().slice(0, 40)}`;
+    const across = (e) => e.closest('.scroll') !== null && getComputedStyle(e.closest('.scroll')).page === 'across';
+    const seen = [...document.querySelectorAll('table, figure, svg, pre, tr, p, .tiles > div')].filter((e) => e.checkVisibility());
+    const wide = seen.filter((e) => e.getBoundingClientRect().right > (across(e) ? 1002 : 674)).map((e) => `too wide: ${what(e)}`);
+    const tall = seen.filter((e) => e.matches('figure, tr, .tiles > div') && e.getBoundingClientRect().height > 1001).map((e) => `too tall: ${what(e)}`);
+    const hidden = [...document.querySelectorAll('.scroll')].filter((e) => getComputedStyle(e).overflow !== 'visible').map((e) => `cut: ${what(e)}`);
+    const breaking = seen.filter((e) => e.matches('figure, tr') && getComputedStyle(e).breakInside !== 'avoid').map((e) => `breaks: ${what(e)}`);
+    return [...wide, ...tall, ...hidden, ...breaking];
+  });
+  check(cut.length === 0, `paper: ${cut.length} places: ${cut.slice(0, 3).join('; ')}`);
+  await page.setViewportSize(screen);
   const pdf = await page.pdf({ path: path.join(output, 'report.pdf'), format: 'A4' });
   check(pdf.subarray(0, 5).toString() === '%PDF-' && pdf.length > 50000, `paper: the PDF has ${pdf.length} bytes`);
   await page.emulateMedia({ media: 'screen' });
