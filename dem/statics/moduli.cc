@@ -145,12 +145,12 @@ HeldDofs gripped_ends(const Assembly& a, double edge_band) {
 }
 
 /// Mean strain of the fluctuation and mean stress: both linear in the state.
-struct Response {
+struct MeanResponse {
   Eigen::Vector3d strain, stress;
 };
 
 /// Without a gauge: of a periodic cell.
-Response response(const Assembly& a, const Operators& op, const StaticState& state, const StripGauge* gauge) {
+MeanResponse response(const Assembly& a, const Operators& op, const StaticState& state, const StripGauge* gauge) {
   if (gauge != nullptr) {
     const int dofs = op.dofs_per_disc;
     return {{gauge->slope(state, dofs, 0), 0.0, gauge->slope(state, dofs, 1)}, mean_stress(a, op, state, gauge->section())};
@@ -182,11 +182,11 @@ StiffnessRates homogenise(const Assembly& a, const StaticSolver& solver, const S
   const std::vector<StaticState> states = solver.solve(kUnitStrains);
   for (int k = 0; k < 3; ++k) {
     const StaticState& state = states[k];
-    const Response r = response(a, op, state, gauge);
+    const MeanResponse r = response(a, op, state, gauge);
     strain.col(k) += r.strain;
     stress.col(k) = r.stress;
     for (std::size_t p = 0; p < parameters; ++p) {
-      const Response rate = response(a, op, solver.rate(state, operator_rate[p]), gauge);
+      const MeanResponse rate = response(a, op, solver.rate(state, operator_rate[p]), gauge);
       strain_rate[p].col(k) = rate.strain;
       stress_rate[p].col(k) = rate.stress;
     }

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "harness/bench/roofline.h"
 #include "harness/provenance/provenance.h"
+#include "reports/number.h"
 
 namespace ddem::harness::bench {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 reports::Color color_of(const PrecisionPoint& p) {
   using enum reports::Color;
@@ -37,7 +36,7 @@ void add_series(reports::Plot& plot, const std::vector<PrecisionPoint>& points, 
       if (called.ends_with("bar") || p.scheme.ends_with("exact")) series->dash = reports::Dash::dashed;
     }
     series->x.push_back(p.seconds);
-    series->y.push_back(p.status == "ok" ? p.*error : kNone);
+    series->y.push_back(p.status == "ok" ? p.*error : reports::kNone);
   }
 }
 
@@ -75,7 +74,7 @@ reports::Table precision_table(const std::vector<PrecisionPoint>& points) {
   t.columns = {{"solver"}, {"scheme"}, {"mesh"}, {"discs or dofs", "", 7}, {"step", "of critical", 3}, {"time", "s", 3}, {"error", "", 3}, {"to continuum", "", 3}, {"status"}};
   for (const PrecisionPoint& p : points) {
     const bool ok = p.status == "ok";
-    t.rows.push_back({p.solver, p.scheme, p.mesh, p.discs_or_dofs, p.step_fraction, p.seconds, ok ? p.error : kNone, ok ? p.error_to_continuum : kNone, p.status});
+    t.rows.push_back({p.solver, p.scheme, p.mesh, p.discs_or_dofs, p.step_fraction, p.seconds, ok ? p.error : reports::kNone, ok ? p.error_to_continuum : reports::kNone, p.status});
   }
   return t;
 }

@@ -10,7 +10,7 @@
 namespace ddem::harness::bench {
 namespace {
 
-constexpr double kLength = 16.5e-3, kWidth = 2e-3, kPulseWidth = 0.3e-3, kCentre = 3e-3, kAmplitude = 1e-6;
+constexpr double kLength = 16.5e-3, kWidth = 2e-3, kContinuumPulseWidth = 0.3e-3, kCentre = 3e-3, kContinuumAmplitude = 1e-6;
 constexpr double kEnd = 7.5e-6;
 constexpr double kMarchFraction = 0.99;  // of the critical step: what ddem-fem marches exact cases with
 
@@ -33,7 +33,7 @@ FemCase pulse_case(const FemMesh& mesh, Wave wave) {
   c.elements = mesh.elements;
   c.material = {1e10, wave == Wave::shear ? 0.3 : 0.0, 1700.0};
   c.periodic = wave == Wave::shear;
-  c.load = InitialPulse{wave, PulseShape::gaussian, kPulseWidth, kCentre, kAmplitude};
+  c.load = InitialPulse{wave, PulseShape::gaussian, kContinuumPulseWidth, kCentre, kContinuumAmplitude};
   c.end = kEnd;
   for (int k = 0; k < 10; ++k) {
     const double x = 1e-3 + 1.3e-3 * k;

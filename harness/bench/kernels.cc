@@ -10,11 +10,12 @@
 #include "dem/core/team.h"
 #include "dem/simulation/stepper.h"
 #include "harness/bench/lattice.h"
+#include "harness/measure/median.h"
 
 namespace ddem::harness::bench {
 namespace {
 
-constexpr double kStepFraction = 0.3;  // all laws here are stable at it
+constexpr double kKernelStepFraction = 0.3;  // all laws here are stable at it
 
 struct Competitor {
   Law law;
@@ -41,7 +42,7 @@ std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly
     in.contact = c.law.contact;
     in.deformation = c.law.deformation;
     in.initial = smooth_state(assembly);
-    in.time_step = lattice_step(kStepFraction);
+    in.time_step = lattice_step(kKernelStepFraction);
     c.stepper = std::make_unique<Stepper>(assembly, in, best_instruction_set());
   }
   return all;
@@ -104,13 +105,6 @@ std::vector<std::vector<double>> measure(std::vector<Competitor>& all, const Ker
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 std::vector<KernelPlan> kernel_plans() {
   std::vector<int> threads{1};

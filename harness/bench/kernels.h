@@ -37,7 +37,4 @@ std::vector<KernelPlan> kernel_plans();
 /// `progress` is called after each plan.
 std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const std::function<void()>& progress);
 
-/// Of an odd or even number of values; NaN of none.
-double median(std::vector<double> values);
-
 }  // namespace ddem::harness::bench

@@ -9,7 +9,7 @@
 namespace ddem::harness::bench {
 namespace {
 
-constexpr double kAmplitude = 1e-9;    // m
+constexpr double kPulseAmplitude = 1e-9;    // m
 constexpr double kSmallestShare = 8.0; // exp(-8^2/2) = 1e-14: shorter waves are not there
 
 double closed_form_speed(const Law& law) {
@@ -26,7 +26,7 @@ double closed_form_speed(const Law& law) {
 LatticePulse::LatticePulse(const Law& law, int columns, double radius, double width)
     : length_(2.0 * radius * columns), middle_(0.5 * length_), speed_(closed_form_speed(law)) {
   const HexagonalBloch bloch({radius, kDensity, 1.0, 0.0}, law.contact, law.deformation);
-  const double mean = kAmplitude * width * std::sqrt(2.0 * std::numbers::pi) / length_;
+  const double mean = kPulseAmplitude * width * std::sqrt(2.0 * std::numbers::pi) / length_;
   modes_.push_back({0.0, mean, 0.0, 0.0, 0.0, 0.0});
   for (int n = 1; n < columns; ++n) {
     const double k = 2.0 * std::numbers::pi * n / length_;

@@ -9,16 +9,17 @@
 #include "harness/bench/kernels.h"
 #include "harness/bench/lattice.h"
 #include "harness/io/errors.h"
+#include "harness/measure/median.h"
 
 namespace ddem::harness::bench {
 namespace {
 
-constexpr double kAmplitude = 1e-6;    // of displacements, about, diameters: geometrically linear to about as much
-constexpr double kStepFraction = 0.1;  // of the critical step
+constexpr double kPeerAmplitude = 1e-6;    // of displacements, about, diameters: geometrically linear to about as much
+constexpr double kPeerStepFraction = 0.1;  // of the critical step
 
 /// Neighbours start unlike each other, so that every bond is strained from the first step on and a wrong force shows.
 ddem::InitialState struck(const ddem::Assembly& a, double unit_of_time) {
-  const double speed = kAmplitude * 2.0 * kRadius / unit_of_time;
+  const double speed = kPeerAmplitude * 2.0 * kRadius / unit_of_time;
   ddem::InitialState state;
   for (std::size_t d = 0; d < a.size(); ++d) {
     const double place = static_cast<double>(d);
@@ -42,7 +43,7 @@ SimulationInput input_of(const ddem::Assembly& a, bool shear, long steps) {
   SimulationInput in;
   in.contact = rigid(shear).contact;
   in.initial = struck(a, std::sqrt(a.mass.front() / in.contact.normal_stiffness));
-  in.time_step = lattice_step(kStepFraction);
+  in.time_step = lattice_step(kPeerStepFraction);
   in.steps = in.sample_every = steps;
   in.energy_samples = 0;
   return in;

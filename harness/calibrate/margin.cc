@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostEvaluations = 15;  // the radius is flat, and has kinks where two eigenvalues cross
 constexpr double kDifference = 1e-4;  // of the radius: Lanczos is right to 1e-10 of it
-constexpr double kLeastRatio = 1e-3;  // of k_t/k_n: at 0 its derivative does not exist
+constexpr double kSmallestRatio = 1e-3;  // of k_t/k_n: at 0 its derivative does not exist
 
 /// ln(radius) and nu as functions of the free parameters.
 struct Problem {
@@ -69,7 +69,7 @@ ModelPoint largest_margin(const StaticModel& model, const SearchSpace& space, co
   const Interval ratio = space.stiffness_ratio;
   if (!ratio.fixed())
     add(Parameter::stiffness_ratio,
-        {std::max(ratio.low, kLeastRatio), std::min(ratio.high, std::max(1.0, start.stiffness_ratio))});
+        {std::max(ratio.low, kSmallestRatio), std::min(ratio.high, std::max(1.0, start.stiffness_ratio))});
   if (!space.softness.fixed())
     add(Parameter::log_softness, {std::log(space.softness.low), std::log(space.softness.high)});
   const Interval nu_p = space.particle_poisson_ratio;

@@ -42,9 +42,9 @@ bool is_chosen(const CampaignSpec& spec, std::string_view study) {
 }
 
 /// What is called `only` among the studies that are run; all of them without it.
-class Choice {
+class CasesAskedFor {
  public:
-  Choice(const CampaignSpec& spec, const std::vector<PlannedStudy>& all) {
+  CasesAskedFor(const CampaignSpec& spec, const std::vector<PlannedStudy>& all) {
     for (const PlannedStudy& s : all) {
       const bool chosen = is_chosen(spec, s.entry->id), whole = chosen && (spec.only.empty() || as_id(spec.only) == s.entry->id);
       if (whole) take_whole(s);
@@ -101,7 +101,7 @@ bool Selection::has(const std::string& case_id) const {
 }
 
 Selection select(const CampaignSpec& spec, const CampaignOptions& options) {
-  const Choice choice(spec, make_studies(spec, options, {}, nullptr));
+  const CasesAskedFor choice(spec, make_studies(spec, options, {}, nullptr));
   Selection s;
   s.only = spec.only;
   s.units = choice.units;
@@ -121,7 +121,7 @@ std::vector<StudyListing> list_studies(const CampaignSpec& spec, const CampaignO
     StudyListing listing{std::string(s.entry->id), std::string(s.entry->title), {}, {}};
     CampaignSpec alone = spec;
     alone.only = listing.id;
-    const Choice choice(alone, all);
+    const CasesAskedFor choice(alone, all);
     for (const std::string_view id : choice.present()) {
       if (id != s.entry->id) listing.needs.emplace_back(id);
     }

@@ -16,7 +16,7 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::string only, folder;
   bool json = false, force = false;
 };
@@ -64,7 +64,7 @@ struct Files {
   std::filesystem::path json, html;
 };
 
-void claim_folder(const Options& o) {
+void claim_bench_folder(const BenchOptions& o) {
   prepare_folder(o.folder);
   const Files files(o.folder);
   claim_outputs({{files.json, OutputKind::bench_json}, {files.html, OutputKind::report}}, {}, o.force);
@@ -76,14 +76,14 @@ void write_files(const std::string& folder, const bench::BenchResults& results) 
   write_file(files.html, reports::render_html(bench::bench_report(results)));
 }
 
-int run(const Options& o) {
+int run(const BenchOptions& o) {
   bench::BenchPlan plan;
   if (!o.only.empty()) {
     plan.kernels = o.only == "kernels";
     plan.work_precision = o.only == "work-precision";
     plan.peers = o.only == "peers";
   }
-  if (!o.folder.empty()) claim_folder(o);
+  if (!o.folder.empty()) claim_bench_folder(o);
   bench::BenchResults results;
   {
     Progress progress(bench::bench_work(plan), "measuring");
@@ -107,7 +107,7 @@ int run(const Options& o) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
   command->footer("kernels         every contact law and scheme, 682, 1e5 and 1e6 discs, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"

@@ -22,7 +22,7 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
   std::array<std::string, kTargetKinds.size()> targets;  // by TargetKind
   std::string density, assembly, plane = "stress", output, curves, prefer = "stiffest";
   std::optional<double> stiffness_ratio, softness, particle_poisson_ratio;
@@ -34,7 +34,7 @@ struct Options {
 constexpr std::array<const char*, kTargetKinds.size()> kTargetOptions = {
     "--young", "--poisson", "--bar-velocity", "--shear-velocity", "--p-velocity"};
 
-WantedValues wanted_values(const Options& o) {
+WantedValues wanted_values(const CalibrateOptions& o) {
   WantedValues wanted;
   std::vector<std::string> problems;
   const auto read = [&](const char* option, const std::string& text,
@@ -60,7 +60,7 @@ WantedValues wanted_values(const Options& o) {
   return wanted;
 }
 
-Scene scene_to_calibrate(const Options& o, const Target& target) {
+Scene scene_to_calibrate(const CalibrateOptions& o, const Target& target) {
   Scene scene;
   if (o.assembly.empty()) {
     const SceneResult read = parse_scene(default_assembly_text(), "the default assembly",
@@ -78,7 +78,7 @@ Scene scene_to_calibrate(const Options& o, const Target& target) {
   return scene;
 }
 
-SearchSpace search_space(const Options& o, const Scene& scene) {
+SearchSpace search_space(const CalibrateOptions& o, const Scene& scene) {
   SearchSpace space;
   space.preference = o.prefer == "margin" ? Preference::margin : Preference::stiffest;
   std::vector<std::string> problems;
@@ -119,11 +119,11 @@ SearchSpace search_space(const Options& o, const Scene& scene) {
   return space;
 }
 
-std::filesystem::path curves_path(const Options& o, const char* ending) {
+std::filesystem::path curves_path(const CalibrateOptions& o, const char* ending) {
   return o.curves.empty() ? std::filesystem::path() : std::filesystem::path(o.curves) / (std::string("design-curves") + ending);
 }
 
-void write_curves(const Options& o, const Scene& scene, const Calibration& c, int threads) {
+void write_curves(const CalibrateOptions& o, const Scene& scene, const Calibration& c, int threads) {
   CurveOptions options{.seeds = o.seeds, .threads = threads};
   if (scene.deformation)
     options.softness = c.found.point.softness,
@@ -137,7 +137,7 @@ void write_curves(const Options& o, const Scene& scene, const Calibration& c, in
   write_file(curves_path(o, ".svg"), reports::render_svg(curve_figure(curves)));
 }
 
-std::string scene_file_text(const Options& o, const Scene& scene, const Calibration& c) {
+std::string scene_file_text(const CalibrateOptions& o, const Scene& scene, const Calibration& c) {
   std::string text = calibrated_text(scene, c.found);
   if (!text.starts_with(kWrittenScene)) text.insert(0, kWrittenScene);
   if (!o.assembly.empty()) return text;
@@ -145,7 +145,7 @@ std::string scene_file_text(const Options& o, const Scene& scene, const Calibrat
   return text + default_load_text(std::sqrt(shear / c.target.density.value()));
 }
 
-int calibrate(const Options& o) {
+int calibrate(const CalibrateOptions& o) {
   const Target target = make_target(wanted_values(o));
   const Scene scene = scene_to_calibrate(o, target);
   const SearchSpace space = search_space(o, scene);
@@ -174,7 +174,7 @@ int calibrate(const Options& o) {
   return static_cast<int>(c.feasible ? ExitCode::done : ExitCode::verdict_failed);
 }
 
-void add_targets(CLI::App& command, Options& o) {
+void add_targets(CLI::App& command, CalibrateOptions& o) {
   constexpr std::array<const char*, kTargetKinds.size()> what = {
       "Young's modulus", "Poisson's ratio", "velocity of long waves in a thin bar, sqrt(E/density)",
       "velocity of shear waves", "velocity of P waves"};
@@ -195,7 +195,7 @@ void add_targets(CLI::App& command, Options& o) {
 }  // namespace
 
 void add_calibrate_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand("calibrate", "Contact (and particle) parameters for target moduli");
   command->footer(
       "ddem calibrate --young \"30 GPa\" --poisson 0.25 --density 2400 -o scene.toml\n"

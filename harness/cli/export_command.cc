@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDrive = "drive.csv";
 
-struct Options {
+struct ExportOptions {
   std::string scene, folder, format = "protocol";
   bool force = false;
 };
@@ -33,7 +33,7 @@ std::vector<std::string> files_of(bool lammps) {
   return names;
 }
 
-int run(const Options& o) {
+int run(const ExportOptions& o) {
   const Scene scene = load_scene(o.scene, Purpose::simulation);
   if (scene.time.integrator == Integrator::exact) {
     throw InputError(scene_problem(scene, "time.integrator", "exact signals are made without time steps, and there are none to hand on",
@@ -62,7 +62,7 @@ int run(const Options& o) {
 }  // namespace
 
 void add_export_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", "A scene as plain files that any solver can read: discs, bonds, receivers, steps");
   command->footer("Example: ddem export bar.toml -o bar\n"
                   "Writes scene.json, discs.csv, bonds.csv, receivers.csv, and drive.csv where an edge is driven. A solver leaves\n"

@@ -21,7 +21,7 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct FemOptions {
   std::string scene, hdf5, csv;
   int snapshots = 0;
   bool json = false, force = false;
@@ -40,7 +40,7 @@ void print_summary(const FemPlan& plan, const FemResult& r, const std::optional<
   }
 }
 
-int run(const Options& o) {
+int run(const FemOptions& o) {
   const Scene scene = load_scene(o.scene, Purpose::continuum);
   const std::string xdmf = o.snapshots > 0 ? xdmf_path(o.hdf5).string() : std::string();
   claim_outputs({{o.hdf5, OutputKind::run_hdf5}, {o.csv, OutputKind::signals_csv}, {xdmf, OutputKind::xdmf}}, files_read_by(scene),
@@ -84,7 +84,7 @@ int run(const Options& o) {
 }  // namespace
 
 void add_fem_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<FemOptions>();
   CLI::App* command = app.add_subcommand("fem", "The continuum model of a scene's strip: same load, same receivers");
   command->footer("E, nu and density come from [continuum], or else from the static moduli of the assembly.\n"
                   "An [initial] pulse in a bar has no lateral contraction: with nu not 0 it loads the free edges at once, and signals\n"

@@ -54,7 +54,7 @@ More sensors stand in a file, with the same settings:
 A number comes with its standard deviation, of the noise in the quiet part before the wave. What cannot be measured is a reason and
 what to change. More in harness/guide/measure.md.)";
 
-struct Options {
+struct MeasureOptions {
   std::vector<std::string> words;  // SIGNALS, or SCENE SIGNALS ...
   std::string distance, positions, time_column, unit, polarity, band, source_duration, density, wave, pick = "all";
   std::vector<std::string> columns;
@@ -92,7 +92,7 @@ LaboratorySpec from_file(const std::string& path) {
   throw InputError(lines);
 }
 
-void check_combination(const Options& o) {
+void check_combination(const MeasureOptions& o) {
   if (o.positions.empty() == o.distance.empty())
     throw InputError(o.distance.empty()
                          ? "measure: how far apart are the sensors? Give --distance \"10 mm\", or --positions FILE.toml for more than two"
@@ -104,7 +104,7 @@ void check_combination(const Options& o) {
 }
 
 /// The file's, and over them the options of the command line.
-LaboratorySpec spec_of(const Options& o) {
+LaboratorySpec spec_of(const MeasureOptions& o) {
   check_combination(o);
   LaboratorySpec spec = o.positions.empty() ? LaboratorySpec{} : from_file(o.positions);
   if (!o.time_column.empty()) spec.time_column = o.time_column;
@@ -132,9 +132,9 @@ std::vector<Mark> marks_of(const std::string& pick) {
   throw std::logic_error("--pick is one of its choices");
 }
 
-bool of_scenes(const Options& o) { return o.words.size() > 1 || o.words.front().ends_with(".toml"); }
+bool of_scenes(const MeasureOptions& o) { return o.words.size() > 1 || o.words.front().ends_with(".toml"); }
 
-void require_no_settings(const Options& o) {
+void require_no_settings(const MeasureOptions& o) {
   const std::pair<const char*, bool> kSettings[] = {
       {"--distance", !o.distance.empty()},   {"--positions", !o.positions.empty()},  {"--time-column", !o.time_column.empty()},
       {"--time-unit", !o.unit.empty()},      {"--polarity", !o.polarity.empty()},    {"--band-pass", !o.band.empty()},
@@ -145,7 +145,7 @@ void require_no_settings(const Options& o) {
   }
 }
 
-int measure(const Options& o) {
+int measure(const MeasureOptions& o) {
   if (of_scenes(o)) {
     require_no_settings(o);
     return measure_scenes(o.words, o.json);
@@ -167,7 +167,7 @@ int measure(const Options& o) {
 }  // namespace
 
 void add_measure_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<MeasureOptions>();
   CLI::App* command = app.add_subcommand("measure", "Wave speeds from signals of a laboratory, or of any program that ran a scene");
   command->footer(kFooter);
   command->add_option("SIGNALS", o->words, "CSV file: a line of names, then rows; one column is the time. Or SCENE SIGNALS, or two such pairs")

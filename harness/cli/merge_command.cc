@@ -14,13 +14,13 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> folders;
   std::string target, baseline, history;
   bool force = false, partial = false;
 };
 
-int merge(const Options& o) {
+int merge(const MergeOptions& o) {
   require_distinct(o.folders, o.target);
   Conclusion conclusion{o.target, {}, o.partial, o.history};
   if (!o.baseline.empty()) conclusion.baseline = nightly::read_baseline(o.baseline);
@@ -41,7 +41,7 @@ int merge(const Options& o) {
 }  // namespace
 
 void add_merge_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<MergeOptions>();
   CLI::App* command =
       app.add_subcommand("merge", "Join the folders of a campaign's shards, then judge and report it");
   command->footer(

@@ -12,12 +12,12 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string folder, output;
   bool force = false;
 };
 
-int run(const Options& o) {
+int run(const ReportOptions& o) {
   const reports::Report report = load_report(o.folder);
   const std::string& output = o.output.empty() ? o.folder : o.output;
   std::error_code ignored;
@@ -35,7 +35,7 @@ int run(const Options& o) {
 }  // namespace
 
 void add_report_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReportOptions>();
   CLI::App* command =
       app.add_subcommand("report", "Draw the report of a finished campaign again, from its results.h5 alone");
   command->footer(

@@ -23,7 +23,7 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct RunCommandOptions {
   std::string scene, hdf5, csv, solver = "builtin";
   std::optional<int> snapshots, ranks;
   bool json = false, force = false;
@@ -40,7 +40,7 @@ void tell_of_contacts(const DemRun& run) {
   }
 }
 
-int run(const Options& o) {
+int run(const RunCommandOptions& o) {
   const Scene scene = load_scene(o.scene, Purpose::simulation);
   const std::string xdmf = o.hdf5.empty() || !o.snapshots ? std::string() : xdmf_path(o.hdf5).string();
   claim_outputs({{o.hdf5, OutputKind::run_hdf5}, {o.csv, OutputKind::signals_csv}, {xdmf, OutputKind::xdmf}}, files_read_by(scene),
@@ -93,7 +93,7 @@ int run(const Options& o) {
 }  // namespace
 
 void add_run_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RunCommandOptions>();
   CLI::App* command = app.add_subcommand("run", "One DEM or DDEM simulation of a scene");
   command->footer("Example: ddem run bar.toml --signals bar.csv\nScenes to start from: harness/scenes/*.toml");
   command->add_option("SCENE", o->scene, "scene file (TOML)")->required();

@@ -14,7 +14,7 @@
 namespace ddem::harness {
 namespace {
 
-struct Options {
+struct StabilityOptions {
   std::string scene;
   std::vector<std::string> wavelengths;
   bool json = false;
@@ -126,19 +126,19 @@ void print_verdict(const SceneStability& s) {
   fmt::print("\nAt its step of {}, {:.4g} of the critical step of rigid discs, the scene is ", format_quantity(s.time_step, "s", 5),
              s.time_step / s.dem_critical_step);
   switch (s.verdict()) {
-    case Verdict::stable: fmt::print("stable.\n"); break;
-    case Verdict::unstable:
+    case StabilityVerdict::stable: fmt::print("stable.\n"); break;
+    case StabilityVerdict::unstable:
       fmt::print("UNSTABLE:\n");
       for (const std::string& why : s.instabilities()) fmt::print("  {}\n", why);
       break;
-    case Verdict::undecided:
+    case StabilityVerdict::undecided:
       fmt::print("UNDECIDED:\n  it is too large for the eigenvalues of its step, and noise in a run of {} steps cannot show growth below {:.2g} a step.\n"
                  "  Growth of {:.2g} a step would show in {:.2g} steps.\n",
                  s.noise->steps, s.noise->detectable, s.slowest_growth, s.steps_needed());
   }
 }
 
-int stability(const Options& o) {
+int stability(const StabilityOptions& o) {
   const SceneStability s = scene_stability(load_scene(o.scene, Purpose::statics), lengths_of(o.wavelengths));
   if (o.json) {
     print_json(stability_json(s));
@@ -157,7 +157,7 @@ int stability(const Options& o) {
 }  // namespace
 
 void add_stability_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StabilityOptions>();
   CLI::App* command = app.add_subcommand("stability", "Critical time step, stability limits and numerical damping of a scene");
   command->footer("Computed from the very assembly and scheme, without running it. Waves of other lengths:\n"
                   "ddem stability shear.toml --wavelength \"4 mm\" --wavelength \"2 mm\"");

@@ -28,14 +28,14 @@ namespace {
 
 constexpr const char* kStatics = "statics";  // the study
 
-struct Options {
+struct ValidateOptions {
   std::string campaign, folder = "ddem-report", shard, only, baseline, history, solver = "builtin";
   int jobs = 0;
   std::optional<int> ranks;
   bool resume = false, plan = false, list = false, json = false, statics = false, force = false, partial = false;
 };
 
-CampaignSpec spec_from(const Options& o) {
+CampaignSpec spec_from(const ValidateOptions& o) {
   CampaignSpec spec = o.campaign.empty() ? default_campaign() : read_campaign(o.campaign);
   spec.only = o.only;
   if (o.solver != builtin_solver().name()) spec.solver = o.solver;
@@ -52,7 +52,7 @@ CampaignSpec spec_from(const Options& o) {
 
 /// A run that goes on, or shares a plan with others, must have the very plan; one that starts anew must not cost the report
 /// of another campaign.
-void settle_plan(const Options& o, const nightly::Plan& plan) {
+void settle_plan(const ValidateOptions& o, const nightly::Plan& plan) {
   if (nightly::holds_plan(o.folder, plan) && (o.resume || !o.shard.empty())) return;
   if (nightly::has_plan(o.folder) && (o.resume || !o.shard.empty()) && !o.force) {
     throw InputError(fmt::format("{}: holds another campaign: {}; give another folder by -o, or --force: results that still fit are kept",
@@ -63,7 +63,7 @@ void settle_plan(const Options& o, const nightly::Plan& plan) {
 }
 
 /// What goes on with this run.
-std::string resume_command(const Options& o, const CampaignSpec& spec) {
+std::string resume_command(const ValidateOptions& o, const CampaignSpec& spec) {
   std::string command = validate_command(spec, o.campaign, spec.only);
   const auto add = [&command](const char* option, const std::string& value) {
     if (!value.empty()) command += fmt::format(" {} {}", option, shell_word(value));
@@ -77,7 +77,7 @@ std::string resume_command(const Options& o, const CampaignSpec& spec) {
 }
 
 /// Over what is left of the bar.
-void say_how_to_go_on(const Options& o, const CampaignSpec& spec) {
+void say_how_to_go_on(const ValidateOptions& o, const CampaignSpec& spec) {
   wipe_progress();
   message("interrupted; what is done is kept, go on with: {}", resume_command(o, spec));
 }
@@ -92,7 +92,7 @@ CampaignResults run_or_say_how_to_go_on(const PlannedCampaign& campaign, const n
   }
 }
 
-int end_of_shard(const Options& o, const CampaignResults& results, std::size_t units) {
+int end_of_shard(const ValidateOptions& o, const CampaignResults& results, std::size_t units) {
   std::size_t errors = 0;
   for (const auto& [id, reason] : results.failed_units) {
     const bool skipped = nightly::was_skipped(reason);
@@ -111,7 +111,7 @@ Json json_of(const std::vector<StudyListing>& listed) {
 }
 
 /// What there is, what it needs, and how long it takes on this machine.
-int list(const Options& o) {
+int list(const ValidateOptions& o) {
   std::vector<StudyListing> listed = list_studies(spec_from(o), {});
   const double cores = std::max(1u, std::thread::hardware_concurrency());
   for (StudyListing& s : listed) s.seconds /= cores;
@@ -126,7 +126,7 @@ int list(const Options& o) {
   return static_cast<int>(ExitCode::done);
 }
 
-int run(const Options& o) {
+int run(const ValidateOptions& o) {
   const nightly::Shard shard = o.shard.empty() ? nightly::Shard{} : nightly::parse_shard(o.shard);
   const CampaignSpec spec = spec_from(o);
   const std::shared_ptr<const Solver> solver = find_solver(o.solver, o.ranks);
@@ -177,7 +177,7 @@ int run(const Options& o) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ValidateOptions>();
   CLI::App* command = app.add_subcommand("validate", "Run a campaign and judge it: writes report.html, results.h5, summary.json, junit.xml");
   command->footer("Without a file: the strip of the paper, k_t/k_n = 0, 0.1 .. 1, DEM and DDEM, bar, shear and P waves,\n"
                   "hexagonal and random, against static moduli, closed forms and finite elements. Exit code 1 if a verdict fails.\n"

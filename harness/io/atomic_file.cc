@@ -37,10 +37,6 @@ std::optional<struct stat> require_replaceable(const fs::path& target) {
   return std::nullopt;
 }
 
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 /// Gives the new file the permissions of the one that it replaces, and its owner where this user may. A group that cannot be
 /// kept gets no more than everybody has.
 void inherit(int descriptor, const struct stat& replaced) {
@@ -84,6 +80,8 @@ fs::path target_of(fs::path target) {
   }
   throw machine_error(named.string(), "cannot follow the symbolic link", ELOOP);
 }
+
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(target_of(target)) {
   if (own_descriptor(target)) throw InputError(target.string() + ": is an open stream; name a file");

@@ -56,6 +56,9 @@ class AtomicFile {
 /// The whole content at once. To a device, a pipe or an open descriptor (/dev/stdout) it is written directly.
 void write_file(const std::filesystem::path& target, std::string_view content, Flush flush = Flush::to_disk);
 
+/// That a file is in: "." where its name says none.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 /// The content of a file; InputError where it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 

@@ -27,10 +27,6 @@ std::optional<struct stat> status_of(const fs::path& path) {
   return status;
 }
 
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 /// What a path is on the disk: a file, or, where none is yet, a name in a folder.
 struct Place {
   dev_t device = 0;

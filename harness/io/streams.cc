@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;
+constexpr int kMostHops = 40;
 
 bool same_place(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
@@ -46,7 +46,7 @@ std::optional<int> own_descriptor(const fs::path& path) {
   struct stat descriptors {};
   if (::stat("/proc/self/fd", &descriptors) != 0) return std::nullopt;
   fs::path place = path;
-  for (int links = 0; links < kMostLinks; ++links) {
+  for (int links = 0; links < kMostHops; ++links) {
     const std::string name = place.filename().string();
     struct stat folder {};
     if (::stat(place.has_parent_path() ? place.parent_path().c_str() : ".", &folder) == 0 && same_place(folder, descriptors)) {

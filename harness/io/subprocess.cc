@@ -25,14 +25,14 @@ extern char** environ;
 namespace ddem::harness {
 namespace {
 
-class Descriptor {
+class PipeEnd {
  public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() { close(); }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
+  explicit PipeEnd(int fd = -1) : fd_(fd) {}
+  ~PipeEnd() { close(); }
+  PipeEnd(PipeEnd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  PipeEnd(const PipeEnd&) = delete;
+  PipeEnd& operator=(const PipeEnd&) = delete;
+  PipeEnd& operator=(PipeEnd&&) = delete;
 
   int get() const { return fd_; }
   void close() {
@@ -44,13 +44,13 @@ class Descriptor {
 };
 
 struct Pipe {
-  Descriptor read_end, write_end;
+  PipeEnd read_end, write_end;
 };
 
 Pipe make_pipe(const std::string& program) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw machine_error(program, "cannot make a pipe", errno);
-  return {Descriptor(ends[0]), Descriptor(ends[1])};
+  return {PipeEnd(ends[0]), PipeEnd(ends[1])};
 }
 
 /// A started program; killed and waited for unless it has been waited for, also where a signal ends this process.
@@ -189,7 +189,7 @@ pid_t spawn(const std::string& program, const Start& start, int out, int error) 
 using Clock = std::chrono::steady_clock;
 
 /// Reads what is there without blocking longer than poll() has promised; closes at the end of the stream.
-void drain(Descriptor& from, Capture& into) {
+void drain(PipeEnd& from, Capture& into) {
   char block[1 << 16];
   const ssize_t count = ::read(from.get(), block, sizeof block);
   if (count > 0) {

@@ -35,12 +35,6 @@ std::vector<double> correlate(std::span<const double> a, std::span<const double>
   return by_lag;
 }
 
-double largest_magnitude(std::span<const double> values) {
-  double largest = 0.0;
-  for (double v : values) largest = std::max(largest, std::abs(v));
-  return largest;
-}
-
 /// Scaled to unit energy; scaled by the largest value first, since the squares of small displacements
 /// underflow.
 std::vector<double> normalised(std::span<const double> values) {

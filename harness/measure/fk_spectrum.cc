@@ -15,7 +15,7 @@ namespace ddem::harness {
 namespace {
 
 constexpr std::size_t kFewest = 8;
-constexpr std::size_t kPadding = 4;
+constexpr std::size_t kSpectrumPadding = 4;
 constexpr double kCrestOverMedian = 10.0;
 
 using Complex = std::complex<double>;
@@ -87,7 +87,7 @@ std::optional<RidgePoint> highest_crest(const FkSpectrum& s, Eigen::Index row, d
 
 FkSpectrum fk_spectrum(std::span<const std::vector<double>> signals, double spacing, double dt) {
   check(signals, spacing, dt);
-  const std::size_t receivers = signals.size(), padded = std::bit_ceil(kPadding * signals.front().size());
+  const std::size_t receivers = signals.size(), padded = std::bit_ceil(kSpectrumPadding * signals.front().size());
   const std::vector<Column> in_time = over_frequency(signals, padded);
   const std::size_t frequencies = padded / 2 + 1, wavenumbers = receivers / 2 + 1;
   FkSpectrum s;

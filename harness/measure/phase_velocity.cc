@@ -16,7 +16,7 @@ namespace ddem::harness {
 namespace {
 
 // Frequencies per independent one: enough that the phase hardly changes from one to the next.
-constexpr std::size_t kPadding = 8;
+constexpr std::size_t kPhasePadding = 8;
 
 /// The windowed part, scaled to a largest value of 1 (squares of displacements of a nanometre are small numbers).
 struct Tapered {
@@ -71,7 +71,7 @@ struct Spectra {
 
 Spectra make_spectra(const Tapered& a, const Tapered& b, double dt, const PhaseVelocityOptions& options) {
   Spectra s;
-  const std::size_t padded = kPadding * std::bit_ceil(std::max(a.values.size(), b.values.size()));
+  const std::size_t padded = kPhasePadding * std::bit_ceil(std::max(a.values.size(), b.values.size()));
   s.from = spectrum(a, padded);
   s.to = spectrum(b, padded);
   s.step = 1.0 / (static_cast<double>(padded) * dt);

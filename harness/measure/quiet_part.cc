@@ -44,13 +44,7 @@ class Stretch {
   double count_ = 0.0, mean_n_ = 0.0, mean_x_ = 0.0, nn_ = 0.0, nx_ = 0.0, xx_ = 0.0;
 };
 
-double largest_magnitude(std::span<const double> values) {
-  double largest = 0.0;
-  for (const double v : values) largest = std::max(largest, std::abs(v));
-  return largest;
-}
-
-double median(std::span<const double> values) {
+double middle_of(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -70,7 +64,7 @@ std::vector<double> without(std::span<const double> values, const Line& line) {
 /// Through the medians of the first and the last third (Tukey's resistant line): a wave of less than half of them moves it little.
 Line resistant_line(std::span<const double> values) {
   const std::size_t third = values.size() / 3;
-  const double first = median(values.first(third)), last = median(values.last(third));
+  const double first = middle_of(values.first(third)), last = middle_of(values.last(third));
   const double trend = (last - first) / static_cast<double>(values.size() - third);
   return {first - trend * static_cast<double>(third / 2), trend};
 }

@@ -31,6 +31,12 @@ Signal slice(const Signal& signal, const Window& window) {
           signal.time(static_cast<double>(range.first))};
 }
 
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0.0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }

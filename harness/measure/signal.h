@@ -37,6 +37,9 @@ SampleRange samples_in(const Signal& signal, const Window& window);
 /// The part of a signal inside a window, with its own t0.
 Signal slice(const Signal& signal, const Window& window);
 
+/// 0 of no values.
+double largest_magnitude(std::span<const double> values);
+
 bool all_finite(std::span<const double> values);
 
 }  // namespace ddem::harness

@@ -34,15 +34,15 @@ const Table& read(const Checked<Table>& table) {
 }
 
 /// One direction of a scene's size and what the discs need of it, m.
-struct Direction {
+struct Extent {
   std::string_view key;
   double size;
   bool periodic;
   double centres, discs;  ///< from the first centre to the last, and with their radii
 };
 
-Direction direction(std::string_view key, double size, bool periodic, const std::vector<double>& centre, const std::vector<double>& radius) {
-  Direction d{key, size, periodic, 0.0, 0.0};
+Extent extent(std::string_view key, double size, bool periodic, const std::vector<double>& centre, const std::vector<double>& radius) {
+  Extent d{key, size, periodic, 0.0, 0.0};
   double lo = HUGE_VAL, hi = -HUGE_VAL, left = HUGE_VAL, right = -HUGE_VAL;
   for (std::size_t k = 0; k < centre.size(); ++k) {
     lo = std::min(lo, centre[k]), hi = std::max(hi, centre[k]);
@@ -62,13 +62,13 @@ std::string size_remedy(double needed, double size) {
 }
 
 std::vector<std::string> contradictions(const Scene& scene, const FilePacking& p, const Packing& packing) {
-  std::vector<Direction> given;
-  if (p.length) given.push_back(direction("assembly.length", *p.length, scene.assembly.periodic.x, packing.x, packing.radius));
-  if (p.width) given.push_back(direction("assembly.width", *p.width, scene.assembly.periodic.y, packing.y, packing.radius));
+  std::vector<Extent> given;
+  if (p.length) given.push_back(extent("assembly.length", *p.length, scene.assembly.periodic.x, packing.x, packing.radius));
+  if (p.width) given.push_back(extent("assembly.width", *p.width, scene.assembly.periodic.y, packing.y, packing.radius));
   const double largest = *std::max_element(packing.radius.begin(), packing.radius.end());
   const std::string file = p.discs.string();
   std::vector<std::string> problems;
-  for (const Direction& d : given) {
+  for (const Extent& d : given) {
     if (!d.periodic && d.centres > d.size * (1.0 + kRounding)) {
       problems.push_back(scene_problem(scene, d.key, fmt::format("the discs of {} lie outside of it: their centres span {}", file, format_quantity(d.centres, "m")),
                                        size_remedy(d.centres, d.size)));

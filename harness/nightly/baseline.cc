@@ -8,6 +8,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/io/json.h"
+#include "harness/measure/median.h"
 #include "harness/nightly/summary.h"
 #include "reports/margin.h"
 
@@ -19,12 +20,6 @@ using reports::State;
 using reports::Verdict;
 
 constexpr double kRoundOff = 1e-9, kShareOfBand = 0.01;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 /// What the nights have of one metric.
 struct Samples {

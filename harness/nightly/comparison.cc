@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "harness/scene/nearest_name.h"
+#include "reports/number.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -16,7 +16,6 @@ using reports::Criterion;
 using reports::State;
 using reports::Verdict;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 State worst_of(const Verdict& v) {
   State worst = State::pass;
@@ -32,7 +31,7 @@ Comparison compared(const Verdict& v, Criterion& c, const Baseline& baseline) {
   const auto known = baseline.find(metric_key(v.case_id, c.metric));
   if (known == baseline.end()) {
     if (c.state == State::pass) c.state = State::no_baseline;
-    return {v.case_id, c.metric, c.unit, c.state, kNone, c.actual, 0.0};
+    return {v.case_id, c.metric, c.unit, c.state, reports::kNone, c.actual, 0.0};
   }
   const BaselineEntry& b = known->second;
   Comparison out{v.case_id, c.metric, c.unit, c.state, b.value, c.actual, b.noise};
@@ -40,7 +39,7 @@ Comparison compared(const Verdict& v, Criterion& c, const Baseline& baseline) {
   const bool as_good = badness(c, c.actual, b.value) <= badness(c, b.value, b.value) + b.noise;
   if (b.unit != c.unit) {
     out.note = fmt::format("{} here, {} in the baseline", in_unit(c.unit), in_unit(b.unit));
-    out.before = kNone;
+    out.before = reports::kNone;
     if (c.state == State::pass) c.state = State::missing;
   } else if (c.state == State::pass && !as_good) {
     c.state = State::regressed;
@@ -67,7 +66,7 @@ Verdict& case_of(const std::string& id, std::vector<Verdict>& verdicts) {
 
 Comparison absent(const std::string& key, const BaselineEntry& b) {
   const std::size_t bar = key.find(" | ");
-  return {key.substr(0, bar), bar == std::string::npos ? "" : key.substr(bar + 3), b.unit, State::missing, b.value, kNone, b.noise};
+  return {key.substr(0, bar), bar == std::string::npos ? "" : key.substr(bar + 3), b.unit, State::missing, b.value, reports::kNone, b.noise};
 }
 
 void add_to_case(const Comparison& c, std::vector<Verdict>& verdicts) {

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -14,7 +13,9 @@
 
 #include "harness/io/errors.h"
 #include "harness/io/folder_lock.h"
+#include "harness/measure/median.h"
 #include "harness/nightly/baseline.h"
+#include "reports/number.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -22,18 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 using reports::Criterion;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlower = 0.2;  // of a wall time: a busy machine's
 constexpr double kWaits = 0.3;  // s: three slices of Linux' scheduler, at the start, at that of the workers, at the end
 // From the median step between nights to three standard deviations of a night, normally distributed.
 constexpr double kDeviationsAStep = 3.0 * 1.4826 / std::numbers::sqrt2;
 constexpr const char* kWallTime = "wall time";
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 /// Three standard deviations of a night, from the steps between nights: a slow drift hardly enters it.
 double scatter_of(const std::vector<double>& values) {
@@ -159,8 +153,8 @@ Trend trend_of(const Criterion& c, const std::string& case_id, const std::vector
   for (const int window : kWindows) {
     const std::size_t n = std::min(before.size(), static_cast<std::size_t>(window));
     if (n < 2 || !std::isfinite(c.actual)) {
-      t.change.push_back(kNone);
-      t.scatter.push_back(kNone);
+      t.change.push_back(reports::kNone);
+      t.scatter.push_back(reports::kNone);
       continue;
     }
     const std::vector<double> recent(before.end() - static_cast<std::ptrdiff_t>(n), before.end());
@@ -178,11 +172,11 @@ void add_missing(const std::vector<Night>& nights, std::vector<Trend>& trends) {
   if (nights.size() < 2) return;
   std::set<std::string> measured;
   for (const Trend& t : trends) measured.insert(metric_key(t.case_id, t.metric));
-  const std::vector<double> none(std::size(kWindows), kNone);
+  const std::vector<double> none(std::size(kWindows), reports::kNone);
   for (const reports::Verdict& v : nights[nights.size() - 2].summary.verdicts) {
     for (const Criterion& c : v.criteria) {
       if (std::isfinite(c.actual) && !measured.contains(metric_key(v.case_id, c.metric)))
-        trends.push_back({v.case_id, c.metric, c.unit, kNone, none, none, false, reports::State::missing});
+        trends.push_back({v.case_id, c.metric, c.unit, reports::kNone, none, none, false, reports::State::missing});
     }
   }
 }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
 #include "harness/nightly/baseline.h"
 #include "reports/margin.h"
+#include "reports/number.h"
 
 namespace ddem::harness::nightly {
 namespace {
@@ -19,7 +19,6 @@ using reports::Criterion;
 using reports::Margin;
 
 constexpr std::size_t kDrawnNights = 101, kPanels = 8, kRows = 60;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kNightAxis = "night (0: this one)";
 
 using Criteria = std::map<std::string, Criterion>;
@@ -50,7 +49,7 @@ struct Drawn {
     std::vector<double> all;
     for (const Criteria& night : nights) {
       const auto found = night.find(key);
-      all.push_back(found == night.end() ? kNone : found->second.actual);
+      all.push_back(found == night.end() ? reports::kNone : found->second.actual);
     }
     return all;
   }
@@ -157,7 +156,7 @@ reports::Figure margins_figure(const Drawn& drawn) {
     for (const auto& [key, c] : drawn.nights[k]) {
       const std::optional<double> share = reports::share_of_limit(c);
       if (!share) continue;
-      std::vector<double>& check = worst.try_emplace(key.substr(0, key.find_first_of("/ ")), drawn.nights.size(), kNone).first->second;
+      std::vector<double>& check = worst.try_emplace(key.substr(0, key.find_first_of("/ ")), drawn.nights.size(), reports::kNone).first->second;
       if (!(*share <= check[k])) check[k] = *share;
     }
   }

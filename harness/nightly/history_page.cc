@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "harness/nightly/baseline.h"
 #include "harness/nightly/broken_since.h"
 #include "harness/nightly/history_figures.h"
 #include "reports/margin.h"
+#include "reports/number.h"
 
 namespace ddem::harness::nightly {
 namespace {
 
 constexpr std::size_t kInSight = 15;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 reports::State worst_of(const Night& night) {
   const auto sorted = reports::worst_first(night.summary.verdicts);
@@ -34,7 +33,7 @@ struct Course {
     for (std::size_t k = 0; k + 1 < share.size(); ++k) {
       if (std::isfinite(share[k])) before.push_back(share[k]);
     }
-    if (before.empty()) return kNone;
+    if (before.empty()) return reports::kNone;
     std::sort(before.begin(), before.end());
     return share.back() - 0.5 * (before[(before.size() - 1) / 2] + before[before.size() / 2]);
   }
@@ -47,14 +46,14 @@ std::vector<Course> courses_of(const std::vector<Night>& nights) {
   for (const reports::Verdict& v : nights.back().summary.verdicts) {
     for (const reports::Criterion& c : v.criteria) {
       if (places.try_emplace(metric_key(v.case_id, c.metric), courses.size()).second)
-        courses.push_back({v.case_id, c.metric, std::vector<double>(nights.size(), kNone)});
+        courses.push_back({v.case_id, c.metric, std::vector<double>(nights.size(), reports::kNone)});
     }
   }
   for (std::size_t n = 0; n < nights.size(); ++n) {
     for (const reports::Verdict& v : nights[n].summary.verdicts) {
       for (const reports::Criterion& c : v.criteria) {
         const auto place = places.find(metric_key(v.case_id, c.metric));
-        if (place != places.end()) courses[place->second].share[n] = std::fmax(courses[place->second].share[n], reports::share_of_limit(c).value_or(kNone));
+        if (place != places.end()) courses[place->second].share[n] = std::fmax(courses[place->second].share[n], reports::share_of_limit(c).value_or(reports::kNone));
       }
     }
   }

@@ -6,13 +6,10 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "harness/references/require_positive.h"
+
 namespace ddem::references {
 namespace {
-
-void require_positive(double value, const char* what) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw std::invalid_argument(fmt::format("the {} must be positive and finite, not {}", what, value));
-}
 
 /// 2G of the DDEM variants; g_p = 4 phi 2G_p.
 double twice_shear(ContactModel model, double A, double lambda, double g_p) {

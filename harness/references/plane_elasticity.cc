@@ -5,13 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "harness/references/require_positive.h"
+
 namespace ddem::references {
 namespace {
-
-void require_positive(double value, const char* what) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw std::invalid_argument(fmt::format("the {} must be positive and finite, not {}", what, value));
-}
 
 void require_poisson_ratio(double nu, double upper) {
   if (!(nu > -1.0 && nu < upper))

@@ -14,7 +14,6 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kNoGrowth = 1e-9;  // a step, as HexagonalBloch
 
 /// "by 2.1e-05 a step, 1.5 times in 20000 steps".
 std::string growth_text(double log_a_step, long steps) {

@@ -22,7 +22,7 @@ constexpr double kSlope = 0.25;          // half of the lines that give its slop
 constexpr double kTopFraction = 0.01;    // of the coefficient, which is skew around its top: fitted over this alone
 constexpr double kMostWidths = 2.5;      // between the widths of one wave at two sensors
 constexpr double kMostUncertain = 0.25;  // of a delay
-constexpr double kOver = 0.15;           // a wave is over where so much of its height is left
+constexpr double kWaveOver = 0.15;           // a wave is over where so much of its height is left
 
 SampleRange around(const ClearWave& wave, double reach) {
   const double middle = static_cast<double>(wave.levelled.crest.index), size = static_cast<double>(wave.levelled.values.size());
@@ -68,7 +68,7 @@ Uncertain with_spread(const ClearWave& from, const ClearWave& to, double width, 
 /// A part on either side of the crest at whose ends nothing is left of the wave.
 std::optional<Window> alone(const ClearWave& wave, double width) {
   const auto half = std::max<std::ptrdiff_t>(1, std::lround(kSlope * width));
-  const double allowed = kOver * wave.levelled.crest.height + 3.0 * projected_noise(wave.quiet(), value_weights(half));
+  const double allowed = kWaveOver * wave.levelled.crest.height + 3.0 * projected_noise(wave.quiet(), value_weights(half));
   for (const double reach : {3.0, 2.5, 2.0, 1.5}) {
     const SampleRange range = around(wave, reach * width);
     const auto left = static_cast<std::ptrdiff_t>(range.first), right = static_cast<std::ptrdiff_t>(range.last) - 1;

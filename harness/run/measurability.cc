@@ -10,7 +10,7 @@ namespace ddem::harness {
 namespace {
 
 // Of a pulse at half its height. Three points of a parabola need four samples there to lie on its top.
-constexpr double kLeastSamples = 4.0;
+constexpr double kLeastSamplesOfAWave = 4.0;
 // Leapfrog moves waves of period T by (2 pi dt/T)^2/24; what discs pass on of a pulse of four steps is longer (0.3 % then).
 constexpr double kLeastSteps = 4.0;
 // By which a pick between samples may falsify a speed.
@@ -18,9 +18,9 @@ constexpr double kSamplingError = 1e-3;
 // Two tops of gaussians are two while they are four standard widths apart: of the source and its image behind an end.
 constexpr double kTwoTops = 2.0 / 3.0;  // of the reach
 // How much of a pulse's width at half height the fit over its top takes on either side, with some room.
-constexpr double kTop = 0.25;
+constexpr double kTopOfAWave = 0.25;
 // Dispersion and scatter widen pulses; what is narrower than half of what was sent is none.
-constexpr double kNarrowest = 0.5;
+constexpr double kNarrowestWave = 0.5;
 // What arrives is at most what was sent; free edges and single discs add something.
 constexpr double kHighest = 3.0;
 // Pairs scatter by 15 % of their mean in the worst of random strips (free edges, no shear stiffness), and in slow noise of 5 %.
@@ -70,7 +70,7 @@ std::optional<FailedMeasurement> place_failure(const ProbeLayout& layout, const 
 std::optional<FailedMeasurement> echo_failure(const ProbeLayout& layout, const ProbePair& path, const WaveContext& c) {
   for (const int p : {path.from, path.to}) {
     const double x = layout.probes[p].x, top = time_of_top(c, x), end = causal_window(c, x).end;
-    if (top + kTop * c.pulse_width <= end) continue;
+    if (top + kTopOfAWave * c.pulse_width <= end) continue;
     return beside_source(fmt::format("the echo of the pulse reaches the probe at {:.4g} mm before the top of the pulse is expected to pass, at {:.4g} us; "
                                      "shorten {} or lengthen the strip",
                                      millimetres(x - c.left_end), 1e6 * top, c.source_duration > 0.0 ? "drive.duration" : "initial.width"));
@@ -81,7 +81,7 @@ std::optional<FailedMeasurement> echo_failure(const ProbeLayout& layout, const P
 /// The samples and steps that a pulse of that width takes. A parabola through three samples of a squared sine misses its top
 /// by 0.41 dt (dt/width)^2 where that lies between two of them; a delay has two tops.
 std::optional<FailedMeasurement> resolution_failure(double width, double delay, const WaveContext& c, double dt) {
-  const double coarsest = std::min(width / kLeastSamples, std::cbrt(kSamplingError * delay * width * width / 0.82));
+  const double coarsest = std::min(width / kLeastSamplesOfAWave, std::cbrt(kSamplingError * delay * width * width / 0.82));
   const double round_off = 1.0 + 1e-9;
   if (c.march_step > 0.0 && c.pulse_width > 0.0 && c.march_step * kLeastSteps > width * round_off) {
     return FailedMeasurement{Failure::undersampled,
@@ -122,7 +122,7 @@ std::optional<FailedMeasurement> doubt(const Arrival& pulse, const Signal& causa
     return FailedMeasurement{Failure::too_high, fmt::format("the signal reaches {:.3g} mm, {:.3g} times what the source sends: something grows, or came from elsewhere",
                                                             millimetres(highest), highest / sent)};
   }
-  if (pulse.width < kNarrowest * c.pulse_width) {
+  if (pulse.width < kNarrowestWave * c.pulse_width) {
     return FailedMeasurement{Failure::not_first, fmt::format("what was picked is {:.3g} us wide at half its height, and the source's pulse {:.3g} us: it is another",
                                                              1e6 * pulse.width, 1e6 * c.pulse_width)};
   }

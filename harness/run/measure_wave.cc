@@ -85,11 +85,11 @@ std::vector<ProbeSignal> probe_signals(const std::vector<std::vector<double>>& s
 
 // Dispersion stretches a pulse: over its own width only, the centroid loses the end that lags behind. On the lattice a tenth
 // more takes the error of the shear centroid from -0.04 to 0.004 % (P: -0.07 to -0.014 %).
-constexpr double kStretch = 1.1;
+constexpr double kWindowStretch = 1.1;
 
 /// The same for all probes, as wide as there is room for between each peak and the first reflection.
 double centroid_half_width(const std::vector<ProbeSignal>& probes, const std::vector<ProbePick>& picks, double pulse) {
-  double room = kStretch * pulse;
+  double room = kWindowStretch * pulse;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     if (picks[p].pick.ok()) room = std::min(room, probes[p].window.end - picks[p].pick.value().time - probes[p].signal.dt);
   }

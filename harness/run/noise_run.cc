@@ -10,7 +10,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr long kFewestSteps = 10'000, kMostSteps = 100'000;
+constexpr long kFewestSteps = 10'000, kMostNoiseSteps = 100'000;
 constexpr double kFlutterStep = 0.5, kFlutterWork = 2e9;
 constexpr std::size_t kReceivers = 32;
 constexpr int kSampleEvery = 16;
@@ -43,7 +43,7 @@ double amplitude(const Signals& s, std::size_t from, std::size_t to) {
 // a run.
 double steps_to_see(double growth, std::size_t discs) { return 0.5 * std::log(2.0 * static_cast<double>(discs)) / (0.75 * growth); }
 
-NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work) {
+NoiseRun run_noise(const ddem::Assembly& assembly, SimulationInput input, double work) {
   std::mt19937_64 generator(1);
   const double size = 1e-6 * mean_radius(assembly.packing);
   const std::size_t n = assembly.size();
@@ -56,7 +56,7 @@ NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work)
   for (std::size_t d = 0; d < n; d += stride) input.receivers.push_back({{static_cast<int>(d)}});
   input.sample_every = kSampleEvery;
   const double step = static_cast<double>(assembly.bonds.size()) * std::max(1, input.deformation.evaluations);
-  input.steps = std::clamp(static_cast<long>(work / std::max(1.0, step)), kFewestSteps, kMostSteps);
+  input.steps = std::clamp(static_cast<long>(work / std::max(1.0, step)), kFewestSteps, kMostNoiseSteps);
 
   const SimulationResult result = simulate(assembly, input);
   NoiseRun run;
@@ -75,7 +75,7 @@ NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work)
   return run;
 }
 
-NoiseFlutter flutter_from_noise(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, const HeldDofs& held) {
+NoiseFlutter flutter_from_noise(const ddem::Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation, const HeldDofs& held) {
   NoiseFlutter flutter;
   flutter.largest_frequency = largest_converged_frequency(assembly, contact, deformation, held);
   SimulationInput in;

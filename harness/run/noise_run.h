@@ -22,7 +22,7 @@ inline constexpr double kNoiseWork = 2e8;
 
 /// Starts `input` (scheme, step, held discs; its state, receivers and number of steps are replaced) from white noise. As
 /// many steps as `work` bonds and evaluations take, 1e4 to 1e5: some seconds. Deterministic.
-NoiseRun run_noise(const Assembly& assembly, SimulationInput input, double work = kNoiseWork);
+NoiseRun run_noise(const ddem::Assembly& assembly, SimulationInput input, double work = kNoiseWork);
 
 /// Growth of what flutters fastest, from noise: what find_flutter (dem/spectra/flutter.h) is too slow for. Frequencies are
 /// not known then.

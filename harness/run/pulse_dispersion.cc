@@ -14,7 +14,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kWorthAWarning = 3.5e-3, kSmall = 1e-3;
+constexpr double kWideSpread = 3.5e-3, kSmall = 1e-3;
 // Beyond it the next order, a tenth of the square, is worth a word of its own.
 constexpr double kMostOfTheSeries = 0.1;
 
@@ -74,7 +74,7 @@ std::optional<PulseDispersion> pulse_dispersion(const Scene& scene, const ddem::
 
 std::optional<std::string> dispersion_warning(const Scene& scene, const ddem::Assembly& a, const WaveContext& c) {
   const auto found = pulse_dispersion(scene, a, c);
-  if (!found || std::abs(found->total()) <= kWorthAWarning) return std::nullopt;
+  if (!found || std::abs(found->total()) <= kWideSpread) return std::nullopt;
   const double share = std::abs(found->total());
   const bool slow = found->total() < 0.0;
   const std::string amount = share > kMostOfTheSeries ? fmt::format("{:g} % or more", 100.0 * kMostOfTheSeries) : fmt::format("about {:.2g} %", 100.0 * share);

@@ -9,7 +9,7 @@ void add_value(Json& j, const std::string& key, const Outcome<double>& value) {
   j[key + "_status"] = value.ok() ? "ok" : value.error().reason;
 }
 
-Outcome<double> mean_of(const WaveSpeed& w) { return w.speed.ok() ? Outcome<double>(w.speed.value().mean) : w.speed.error(); }
+Outcome<double> mean_outcome(const WaveSpeed& w) { return w.speed.ok() ? Outcome<double>(w.speed.value().mean) : w.speed.error(); }
 
 Outcome<double> stddev_of(const WaveSpeed& w) {
   if (!w.speed.ok()) return w.speed.error();
@@ -39,10 +39,10 @@ const char* status_of(Breakdown::Cause cause) {
 
 void add_measurement(Json& j, const std::optional<WaveMeasurement>& m, const ProbeLayout& layout, const std::string& why_not) {
   const FailedMeasurement none{Failure::empty_window, why_not}, no_pulse{Failure::no_reference, "a released column sends no pulse of known width"};
-  add_value(j, "wave_speed", m ? mean_of(m->speed) : none);
+  add_value(j, "wave_speed", m ? mean_outcome(m->speed) : none);
   add_value(j, "wave_speed_stddev", m ? stddev_of(m->speed) : none);
-  add_value(j, "wave_speed_by_centroid", !m ? none : m->by_centroid ? mean_of(*m->by_centroid) : no_pulse);
-  add_value(j, "wave_speed_by_correlation", m ? mean_of(m->by_correlation) : none);
+  add_value(j, "wave_speed_by_centroid", !m ? none : m->by_centroid ? mean_outcome(*m->by_centroid) : no_pulse);
+  add_value(j, "wave_speed_by_correlation", m ? mean_outcome(m->by_correlation) : none);
   j["good_pairs"] = m ? m->speed.good_pairs : 0;
   j["pairs"] = Json::array();
   if (!m) return;

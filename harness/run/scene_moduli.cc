@@ -24,7 +24,7 @@ references::ContactModel contact_model(const DeformationParameters& d) {
 }
 
 /// Of bonds of different stiffness, the one that gives the same sum k_n L^2: what a uniform strain feels.
-double mean_normal_stiffness(const ddem::Assembly& a, const ContactParameters& contact) {
+double stiffness_under_strain(const ddem::Assembly& a, const ContactParameters& contact) {
   if (contact.uniform()) return contact.normal_stiffness;
   const std::vector<double> k_n = normal_stiffnesses(a, contact);
   double weighted = 0.0, weight = 0.0;
@@ -147,7 +147,7 @@ references::PlaneModuli kinematic_moduli(const Scene& scene, const ddem::Assembl
   for (const int d : network_discs(a)) radii.push_back(a.packing.radius[d]);
   references::Fabric fabric = references::random_fabric(a.bonds.length, radii, a.area());
   if (deformation.volume == ParticleVolume::cell) fabric.solid_fraction = 1.0;  // the cells fill the assembly
-  return references::effective_moduli(contact_model(deformation), fabric, {mean_normal_stiffness(a, contact), contact.stiffness_ratio},
+  return references::effective_moduli(contact_model(deformation), fabric, {stiffness_under_strain(a, contact), contact.stiffness_ratio},
                                       disc);
 }
 

@@ -16,7 +16,6 @@ namespace ddem::harness {
 namespace {
 
 constexpr std::size_t kLargestFlutterSearch = 5000;  // discs; a minute
-constexpr double kNoGrowth = 1e-9;                   // as HexagonalBloch
 constexpr std::size_t kMostUnknowns = 2000;          // of a step whose eigenvalues are sought: 20 s
 constexpr double kSlowestGrowth = 1e-6;              // a step; of longer runs a mode that grows by e in all of their steps
 
@@ -128,9 +127,9 @@ std::vector<std::string> SceneStability::instabilities() const {
   return reasons;
 }
 
-Verdict SceneStability::verdict() const {
-  if (!instabilities().empty()) return Verdict::unstable;
-  return critical_step_decides() || step_growth || whole_lattice ? Verdict::stable : Verdict::undecided;
+StabilityVerdict SceneStability::verdict() const {
+  if (!instabilities().empty()) return StabilityVerdict::unstable;
+  return critical_step_decides() || step_growth || whole_lattice ? StabilityVerdict::stable : StabilityVerdict::undecided;
 }
 
 double SceneStability::steps_needed() const { return std::ceil(steps_to_see(slowest_growth, static_cast<std::size_t>(discs))); }

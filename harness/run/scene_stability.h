@@ -19,7 +19,7 @@ struct LatticeStability {
   std::optional<double> largest_stable_step;  ///< s
 };
 
-enum class Verdict { stable, unstable, undecided };
+enum class StabilityVerdict { stable, unstable, undecided };
 
 struct SceneStability {
   int discs = 0, bonds = 0;
@@ -47,7 +47,7 @@ struct SceneStability {
   bool critical_step_decides() const;
   /// Why the scene is unstable at its step.
   std::vector<std::string> instabilities() const;
-  Verdict verdict() const;
+  StabilityVerdict verdict() const;
   /// Of a run that would show growth as slow as slowest_growth, where noise in fewer showed none.
   double steps_needed() const;
 };

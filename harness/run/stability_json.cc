@@ -23,11 +23,11 @@ const char* name(Correction correction) {
   return "";
 }
 
-const char* name(Verdict verdict) {
+const char* name(StabilityVerdict verdict) {
   switch (verdict) {
-    case Verdict::stable: return "stable";
-    case Verdict::unstable: return "unstable";
-    case Verdict::undecided: return "undecided";
+    case StabilityVerdict::stable: return "stable";
+    case StabilityVerdict::unstable: return "unstable";
+    case StabilityVerdict::undecided: return "undecided";
   }
   return "";
 }
@@ -63,10 +63,10 @@ void add_softness(Json& j, const SceneStability& s) {
 }
 
 void add_verdict(Json& j, const SceneStability& s) {
-  const Verdict verdict = s.verdict();
-  const bool undecided = verdict == Verdict::undecided;
+  const StabilityVerdict verdict = s.verdict();
+  const bool undecided = verdict == StabilityVerdict::undecided;
   j["stability"] = name(verdict);
-  j["stable_at_step_fraction"] = undecided ? Json() : Json(verdict == Verdict::stable);
+  j["stable_at_step_fraction"] = undecided ? Json() : Json(verdict == StabilityVerdict::stable);
   j["instabilities"] = s.instabilities();
   j["growth_per_step"] = optional_number(s.step_growth, s.critical_step_decides() ? "the critical step decides" : "too many discs for the step's eigenvalues");
   j["steps_needed"] = undecided ? Json(s.steps_needed()) : status("the verdict needs no run");

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t max_listed = 20;
 constexpr std::size_t max_bytes = std::size_t{4} << 30;
 
-std::string_view trim(std::string_view text) {
+std::string_view trim_cell(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
     text.remove_suffix(1);
@@ -60,7 +60,7 @@ class Lines {
   bool next() {
     while (!rest_.empty()) {
       const std::size_t end = rest_.find('\n');
-      line_ = trim(rest_.substr(0, end));
+      line_ = trim_cell(rest_.substr(0, end));
       rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
       ++number_;
       if (!line_.starts_with('#')) return true;
@@ -80,7 +80,7 @@ template <std::size_t n>
 std::size_t split(std::string_view line, std::array<std::string_view, n>& fields) {
   for (std::size_t count = 0;; ++count) {
     const std::size_t comma = line.find(',');
-    if (count < n) fields[count] = trim(line.substr(0, comma));
+    if (count < n) fields[count] = trim_cell(line.substr(0, comma));
     if (comma == std::string_view::npos) return count + 1;
     line.remove_prefix(comma + 1);
   }

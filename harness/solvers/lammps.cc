@@ -146,7 +146,7 @@ class Input {
   Types bond_types_;
 };
 
-void write_input(const fs::path& folder, const Exchange& e) {
+void write_lammps_input(const fs::path& folder, const Exchange& e) {
   Input input(e);
   write_file(folder / "strip.data", input.data());
   write_file(folder / "in.strip", input.commands());
@@ -170,7 +170,7 @@ SimulationResult read_motion(const fs::path& folder, const Exchange& e, const st
   return result;
 }
 
-std::string beyond_it(const ddem::Assembly&, const SimulationInput& in) { return in.contact.has_rotation() ? "shear stiffness: its bonds are springs" : ""; }
+std::string beyond_lammps(const ddem::Assembly&, const SimulationInput& in) { return in.contact.has_rotation() ? "shear stiffness: its bonds are springs" : ""; }
 
 }  // namespace
 
@@ -189,7 +189,7 @@ std::shared_ptr<const Solver> lammps_solver(const ReadyOptions& o) {
   for (const std::string& word : {program, std::string("-in"), std::string("in.strip"), std::string("-log"), std::string("none")}) d.command.push_back(word);
   d.version_command = {program, "-h"};
   d.abilities.laws = {"dem"};
-  return external_solver(std::move(d), {write_input, read_motion, [](const std::string& said) { return std::string(between(said, "Simulator - ", "\n")); }, beyond_it});
+  return external_solver(std::move(d), {write_lammps_input, read_motion, [](const std::string& said) { return std::string(between(said, "Simulator - ", "\n")); }, beyond_lammps});
 }
 
 }  // namespace ddem::harness

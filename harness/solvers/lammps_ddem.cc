@@ -33,9 +33,9 @@ double at(const std::vector<double>& values, std::size_t d) { return values.empt
 
 double longest_bond(const ddem::Assembly& a) { return a.bonds.size() == 0 ? 0.0 : *std::ranges::max_element(a.bonds.length); }
 
-class Input {
+class DdemInput {
  public:
-  explicit Input(const Exchange& e) : e_(e), role_(e.assembly.size(), 0u), largest_(std::ranges::max(e.assembly.packing.radius)) {
+  explicit DdemInput(const Exchange& e) : e_(e), role_(e.assembly.size(), 0u), largest_(std::ranges::max(e.assembly.packing.radius)) {
     const SimulationInput& in = e.input;
     const auto mark = [this](const std::vector<std::uint8_t>& held, Role role) {
       for (std::size_t d = 0; d < held.size(); ++d) {
@@ -171,7 +171,7 @@ class Input {
   double largest_;                // radius
 };
 
-std::string Input::strain() const {
+std::string DdemInput::strain() const {
   const DeformationParameters& d = e_.input.deformation;
   const bool lagged = d.scheme == Scheme::lagged;
   std::string text = fmt::format("strain {} {} {} {} plane {} thickness {} volume {}", lagged ? "lagged" : "implicit", name_of(d.correction), d.young_modulus,
@@ -182,7 +182,7 @@ std::string Input::strain() const {
 }
 
 /// What the script left, as displacements and rotations averaged over receivers.
-SimulationResult read_motion(const fs::path& folder, const Exchange& e, const std::string& printed) {
+SimulationResult read_ddem_motion(const fs::path& folder, const Exchange& e, const std::string& printed) {
   SimulationResult result;
   result.wall_seconds = number_between(printed, "Loop time of ", " on");
   SampleMaker samples(e.input);
@@ -215,10 +215,10 @@ std::string lammps_ddem_refusal(const ddem::Assembly& a, const SimulationInput& 
 
 void write_lammps_ddem(const fs::path& folder, const Exchange& e) {
   if (const std::string reason = lammps_ddem_refusal(e.assembly, e.input); !reason.empty()) throw UnsupportedError("ddem-lammps cannot do " + reason);
-  const Input input(e);
+  const DdemInput input(e);
   const std::vector<double>* initial[] = {&e.input.initial.ux, &e.input.initial.uy, &e.input.initial.theta};
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::string text = Input::displaced(*initial[c]);
+    const std::string text = DdemInput::displaced(*initial[c]);
     if (text.empty()) fs::remove(folder / kLammpsInitial[c]);  // of another scene
     else write_file(folder / kLammpsInitial[c], text);
   }
@@ -238,7 +238,7 @@ std::shared_ptr<const Solver> lammps_ddem_solver(const ReadyOptions& o) {
   d.version_command = {program, "--version"};
   d.abilities.laws = builtin_solver().abilities().laws;
   d.abilities.nonlinear = true;
-  return external_solver(std::move(d), {write_lammps_ddem, read_motion, {}, lammps_ddem_refusal});
+  return external_solver(std::move(d), {write_lammps_ddem, read_ddem_motion, {}, lammps_ddem_refusal});
 }
 
 }  // namespace ddem::harness

@@ -85,15 +85,15 @@ print('Loop time', seconds, 's')
 )";
 
 template <class T>
-T at(const std::vector<T>& values, std::size_t d) {
+T component(const std::vector<T>& values, std::size_t d) {
   return values.empty() ? T{} : values[d];
 }
 
 std::string blocked(const SimulationInput& in, std::size_t d, bool driven) {
   std::string dofs;
-  if (at(in.held.x, d) != 0 || (driven && in.drive->direction == Direction::x)) dofs += 'x';
-  if (at(in.held.y, d) != 0 || (driven && in.drive->direction == Direction::y)) dofs += 'y';
-  if (at(in.held.theta, d) != 0 || !in.contact.has_rotation()) dofs += 'Z';
+  if (component(in.held.x, d) != 0 || (driven && in.drive->direction == Direction::x)) dofs += 'x';
+  if (component(in.held.y, d) != 0 || (driven && in.drive->direction == Direction::y)) dofs += 'y';
+  if (component(in.held.theta, d) != 0 || !in.contact.has_rotation()) dofs += 'Z';
   return dofs;
 }
 
@@ -113,7 +113,7 @@ std::string scene_text(const Exchange& e) {
   for (std::size_t d = 0; d < a.size(); ++d) {
     write("{}[{}, {}, {}, {}, {}, \"{}\", {}, {}, {}]", d == 0 ? "" : ", ", a.packing.x[d] / u.length, a.packing.y[d] / u.length, a.packing.radius[d] / u.length,
           a.mass[d] / u.mass, a.inertia[d] / (u.mass * u.length * u.length), blocked(in, d, driven.contains(static_cast<int>(d))),
-          at(in.initial.vx, d) / u.speed(), at(in.initial.vy, d) / u.speed(), at(in.initial.omega, d) * u.time());
+          component(in.initial.vx, d) / u.speed(), component(in.initial.vy, d) / u.speed(), component(in.initial.omega, d) * u.time());
   }
   write("], \"bonds\": [");
   for (std::size_t b = 0; b < a.bonds.size(); ++b) {
@@ -131,13 +131,13 @@ std::string scene_text(const Exchange& e) {
   return {text.data(), text.size()};
 }
 
-void write_input(const fs::path& folder, const Exchange& e) {
+void write_yade_input(const fs::path& folder, const Exchange& e) {
   write_file(folder / "strip.json", scene_text(e));
   write_file(folder / "strip.py", kScript);
 }
 
 /// Rows of displacements and rotations, disc by disc, sample by sample.
-SimulationResult read_motion(const fs::path& folder, const Exchange& e, const std::string& printed) {
+SimulationResult read_yade_motion(const fs::path& folder, const Exchange& e, const std::string& printed) {
   SimulationResult result;
   result.wall_seconds = number_between(printed, "Loop time ", " s");
   const double unit = reduced_units(e, normal_stiffnesses(e.assembly, e.input.contact)).length;
@@ -159,7 +159,7 @@ SimulationResult read_motion(const fs::path& folder, const Exchange& e, const st
 }
 
 /// Its bonds begin unstrained where discs touch, with the arms of touching discs, and its shear begins at nothing.
-std::string beyond_it(const ddem::Assembly& a, const SimulationInput& in) {
+std::string beyond_yade(const ddem::Assembly& a, const SimulationInput& in) {
   const auto is_gapped = [&](std::size_t b) {
     return std::abs(a.packing.radius[a.bonds.i[b]] + a.packing.radius[a.bonds.j[b]] - a.bonds.length[b]) > kTouching * a.bonds.length[b];
   };
@@ -183,7 +183,7 @@ std::shared_ptr<const Solver> yade_solver(const ReadyOptions& o) {
   d.may_write = {"/tmp"};  // whatever TMPDIR says
   d.abilities.laws = {"dem"};
   d.abilities.periodic = false;
-  return external_solver(std::move(d), {write_input, read_motion, [](const std::string& said) { return std::string(between(said, "version: ", " ")); }, beyond_it});
+  return external_solver(std::move(d), {write_yade_input, read_yade_motion, [](const std::string& said) { return std::string(between(said, "version: ", " ")); }, beyond_yade});
 }
 
 }  // namespace ddem::harness

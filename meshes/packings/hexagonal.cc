@@ -14,7 +14,7 @@ namespace ddem::packings {
 namespace {
 
 constexpr double kWorstFit = 1.3;  // largest factor between the shape asked for and the one that comes out
-constexpr double kMostDiscs = 1e8;
+constexpr double kMostOfALattice = 1e8;
 constexpr double kSqrt3 = std::numbers::sqrt3;
 
 struct Grid {
@@ -91,8 +91,8 @@ void check_given(const HexagonalSpec& spec) {
   check(spec.length, "length");
   check(spec.width, "width");
   check(spec.discs, "discs");
-  if (std::max(static_cast<double>(spec.columns) * spec.rows, static_cast<double>(spec.discs)) > kMostDiscs)
-    throw std::invalid_argument(fmt::format("more than {:g} discs are not possible", kMostDiscs));
+  if (std::max(static_cast<double>(spec.columns) * spec.rows, static_cast<double>(spec.discs)) > kMostOfALattice)
+    throw std::invalid_argument(fmt::format("more than {:g} discs are not possible", kMostOfALattice));
 
   const int lattice = (spec.columns > 0) + (spec.rows > 0) + (spec.radius > 0.0);
   const int rectangle = (spec.length > 0.0) + (spec.width > 0.0) + (spec.discs > 0);

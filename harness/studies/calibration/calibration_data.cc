@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dem/core/narrow.h"
 #include "harness/calibrate/calibrate.h"
 #include "harness/studies/strip/criteria.h"
 #include "harness/references/effective_moduli.h"
 #include "harness/run/scene_moduli.h"
+#include "reports/number.h"
 
 namespace ddem::harness {
 namespace {
@@ -216,7 +216,6 @@ reports::Verdict calibration_verdict(const CalibrationOutcome& o) {
 }
 
 reports::Table calibration_table(const std::vector<CalibrationOutcome>& outcomes) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   reports::Table t;
   t.caption =
       "Target E = 30 GPa and ν; what was found; static moduli of the packings with these contacts, less the "
@@ -240,11 +239,11 @@ reports::Table calibration_table(const std::vector<CalibrationOutcome>& outcomes
                                       o.feasible ? "yes" : "out of reach",
                                       o.stiffness_ratio,
                                       o.normal_stiffness,
-                                      soft ? o.softness : kNone,
-                                      soft ? o.particle_poisson_ratio : kNone};
+                                      soft ? o.softness : reports::kNone,
+                                      soft ? o.particle_poisson_ratio : reports::kNone};
     for (const auto* packings : {&o.fitted, &o.unseen}) {
-      row.push_back(packings->empty() ? kNone : 100.0 * (mean_young(*packings) / o.target_young - 1.0));
-      row.push_back(packings->empty() ? kNone : mean_poisson(*packings) - o.target_poisson);
+      row.push_back(packings->empty() ? reports::kNone : 100.0 * (mean_young(*packings) / o.target_young - 1.0));
+      row.push_back(packings->empty() ? reports::kNone : mean_poisson(*packings) - o.target_poisson);
     }
     t.rows.push_back(row);
   }

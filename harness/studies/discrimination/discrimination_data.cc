@@ -20,7 +20,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kRatio = 0.3;
+constexpr double kDiscriminationRatio = 0.3;
 constexpr double kShares[] = {0.01, 0.05};
 
 /// What is looked at for one wrong parameter.
@@ -68,7 +68,7 @@ std::vector<ContinuumDefect> continuum_defects() {
 /// One material and ratio, whose lattice alone is run.
 StripCampaign narrowed(StripCampaign s, Model model) {
   s.models = {model};
-  s.stiffness_ratios = {kRatio};
+  s.stiffness_ratios = {kDiscriminationRatio};
   return s;
 }
 
@@ -82,7 +82,7 @@ double tolerances_off(const reports::Verdict& v, const Named& named) {
 
 double off_with(const StripCampaign& campaign, const SceneDefect& defect, double by) {
   const StripCampaign s = narrowed(campaign, defect.model);
-  const StripMaterial lattice{StripPacking::hexagonal, 0, defect.model, kRatio};
+  const StripMaterial lattice{StripPacking::hexagonal, 0, defect.model, kDiscriminationRatio};
   CampaignOptions options;
   options.disturb_scene = [&](Scene& scene) { defect.disturb(scene, by); };
   StripStatics statics(s, options);
@@ -100,7 +100,7 @@ double off_with_step(const StripCampaign& s, double by) {
   grid.step_fraction = {0.3, 0.6};
   grid.disturb = [by](SimulationInput& in) { in.time_step *= by; };
   const StabilityMap map =
-      map_stability(s, grid, {StripPacking::hexagonal, Scheme::lagged, Correction::full, kRatio, 0.3});
+      map_stability(s, grid, {StripPacking::hexagonal, Scheme::lagged, Correction::full, kDiscriminationRatio, 0.3});
   if (!map.failure.empty()) throw std::runtime_error(map.failure);
   for (const reports::Criterion& c : stability_map_verdict(map).criteria) {
     if (c.metric == "largest disagreement of growth") return c.actual / c.upper;
@@ -130,7 +130,7 @@ void add_continuum(const StripCampaign& campaign, DiscriminationStudy& study) {
   for (const ContinuumDefect& d : defects) {
     for (const double share : kShares) {
       study.defects.push_back({d.named.parameter, share, d.named.case_id, d.named.metric, "", 0.0});
-      outcomes.emplace_back().key = {StripPacking::random, s.seeds.front(), Model::dem, kRatio};
+      outcomes.emplace_back().key = {StripPacking::random, s.seeds.front(), Model::dem, kDiscriminationRatio};
       outcomes.back().wave =
           std::string(d.named.case_id).starts_with("fem/p/") ? StripWave::p : StripWave::shear;
     }

@@ -6,16 +6,16 @@
 namespace ddem::harness {
 namespace {
 
-constexpr const char* kUnit = "discrimination";
+constexpr const char* kDiscriminationUnit = "discrimination";
 
 class DefectsStudy : public Study {
  public:
   explicit DefectsStudy(const std::shared_ptr<Strip>& strip) {
-    pieces_.push_back(piece_at(study_, kUnit, inputs_of(strip->spec) + (strip->options.with_continuum ? " with the continuum" : ""), 150,
+    pieces_.push_back(piece_at(study_, kDiscriminationUnit, inputs_of(strip->spec) + (strip->options.with_continuum ? " with the continuum" : ""), 150,
                                [strip] { return study_discrimination(strip->spec, strip->options.with_continuum); }));
   }
 
-  std::vector<Judged> judge() const override { return {{discrimination_verdict(study_.value_or(DiscriminationStudy{})), {kUnit}}}; }
+  std::vector<Judged> judge() const override { return {{discrimination_verdict(study_.value_or(DiscriminationStudy{})), {kDiscriminationUnit}}}; }
 
   std::vector<reports::Section> sections() const override {
     if (!study_) return {};

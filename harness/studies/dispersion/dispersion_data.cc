@@ -23,9 +23,9 @@ namespace {
 constexpr int kColumns = 128, kRows = 4;
 constexpr double kRadius = 1e-4;      // m; spectra scale with it
 constexpr double kSpacing = std::numbers::sqrt3 * kRadius;
-constexpr double kAmplitude = 1e-9;   // m
-constexpr double kRatio = 0.3;        // k_t/k_n
-constexpr double kStepFraction = 0.1;
+constexpr double kDispersionAmplitude = 1e-9;   // m
+constexpr double kDispersionRatio = 0.3;        // k_t/k_n
+constexpr double kDispersionStepFraction = 0.1;
 constexpr long kSteps = 8000;
 constexpr int kSampleEvery = 4;
 // Lines of waves with fewer lengths over the strip merge with their reflections.
@@ -80,13 +80,13 @@ ddem::Assembly lattice(const StripCampaign& s) {
 DispersionPanel discs_panel(const StripCampaign& s, const System& system, const ddem::Assembly& a, const Solver& solver) {
   SimulationInput in;
   in.contact.normal_stiffness = s.normal_stiffness;
-  in.contact.stiffness_ratio = kRatio;
+  in.contact.stiffness_ratio = kDispersionRatio;
   in.deformation = system.deformation;
-  in.time_step = kStepFraction * 2.0 / largest_frequency(a, in.contact, {});
+  in.time_step = kDispersionStepFraction * 2.0 / largest_frequency(a, in.contact, {});
   in.steps = kSteps;
   in.sample_every = kSampleEvery;
   in.initial.ux.assign(a.size(), 0.0);
-  for (int row = 0; row < kRows; ++row) in.initial.ux[row * kColumns] = kAmplitude;
+  for (int row = 0; row < kRows; ++row) in.initial.ux[row * kColumns] = kDispersionAmplitude;
   in.initial.uy = in.initial.ux;
   for (int column = 0; column < kColumns; ++column) in.receivers.push_back({{column}});
   const Signals signals = solver.solve(a, in).signals;
@@ -122,7 +122,7 @@ FemCase continuum(const ContinuumMaterial& material, Wave wave, bool periodic, d
   pulse.width = (periodic ? 2.0 : 0.5) * kSpacing;
   // A wave sin(k x) with a node at the pulse would be missing: the first lies at the zone boundary over 1.5.
   pulse.center = periodic ? 0.0 : 1.5 * kSpacing;
-  pulse.amplitude = kAmplitude;
+  pulse.amplitude = kDispersionAmplitude;
   c.load = pulse;
   c.step = StepSeconds{sampled};
   c.end = static_cast<double>(kSteps / kSampleEvery) * sampled;
@@ -175,7 +175,7 @@ FkSpectrum coarse(const FkSpectrum& s, double highest) {
 
 ContinuumMaterial closed_form(const StripCampaign& s) {
   const references::Fabric fabric = references::hexagonal_fabric();
-  const references::PlaneModuli m = references::effective_moduli(references::ContactModel::ddem_full, fabric, {s.normal_stiffness, kRatio},
+  const references::PlaneModuli m = references::effective_moduli(references::ContactModel::ddem_full, fabric, {s.normal_stiffness, kDispersionRatio},
                                                                  {{s.particle_modulus, s.particle_poisson_ratio}, 1.0});
   const IsotropicModuli isotropic{m.bulk, m.shear};
   return {isotropic.young(), isotropic.poisson(), s.density * fabric.solid_fraction};
@@ -230,7 +230,7 @@ DispersionStudy study_dispersion(const StripCampaign& s, bool with_fem, const So
   DispersionStudy study{kZoneBoundary, {}};
   ContactParameters contact;
   contact.normal_stiffness = s.normal_stiffness;
-  contact.stiffness_ratio = kRatio;
+  contact.stiffness_ratio = kDispersionRatio;
   const ddem::Assembly a = lattice(s);
   for (const System& system : systems_of(s)) {
     try {
@@ -241,7 +241,7 @@ DispersionStudy study_dispersion(const StripCampaign& s, bool with_fem, const So
       study.panels.push_back({system.name, system.slug, e.what(), {}, {}});
     }
   }
-  if (with_fem) add_continuum(study, closed_form(s), kSampleEvery * kStepFraction * 2.0 / largest_frequency(a, contact, {}));
+  if (with_fem) add_continuum(study, closed_form(s), kSampleEvery * kDispersionStepFraction * 2.0 / largest_frequency(a, contact, {}));
   const double highest = highest_frequency(study);
   for (DispersionPanel& panel : study.panels) {
     panel.spectrum = panel.failure.empty() && highest > 0.0 ? coarse(panel.spectrum, highest) : FkSpectrum{};

@@ -9,13 +9,13 @@
 namespace ddem::harness {
 namespace {
 
-constexpr const char* kUnit = "dispersion";
+constexpr const char* kDispersionUnit = "dispersion";
 
 class SpectraStudy : public Study {
  public:
   explicit SpectraStudy(const std::shared_ptr<Strip>& strip) : study_(plan_dispersion(strip->options.with_continuum)) {
     pieces_.push_back(piece(
-        kUnit, inputs_of(strip->spec) + (strip->options.with_continuum ? " with the continuum" : ""), 270,
+        kDispersionUnit, inputs_of(strip->spec) + (strip->options.with_continuum ? " with the continuum" : ""), 270,
         [strip] { return study_dispersion(strip->spec, strip->options.with_continuum, *strip->options.solver); },
         [this](DispersionStudy&& found) {
           require_same(std::ranges::equal(found.panels, study_.panels, {}, &DispersionPanel::slug, &DispersionPanel::slug));
@@ -28,7 +28,7 @@ class SpectraStudy : public Study {
 
   std::vector<Judged> judge() const override {
     std::vector<Judged> judged;
-    for (const DispersionPanel& panel : study_.panels) judged.push_back({dispersion_verdict(panel), {kUnit}});
+    for (const DispersionPanel& panel : study_.panels) judged.push_back({dispersion_verdict(panel), {kDispersionUnit}});
     return judged;
   }
 

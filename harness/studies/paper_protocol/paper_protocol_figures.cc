@@ -1,21 +1,21 @@
 #include "harness/studies/paper_protocol/paper_protocol_figures.h"
 
+#include "reports/number.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double from_p(double p, double s) { return 1.0 - 2.0 * (s / p) * (s / p); }
 double from_bar(double bar, double s) { return 0.5 * (bar / s) * (bar / s) - 1.0; }
 
-double mean(const std::vector<double>& values) { return values.empty() ? kNone : sample_statistics(values).value; }
+double mean(const std::vector<double>& values) { return values.empty() ? reports::kNone : sample_statistics(values).value; }
 
 }  // namespace
 
@@ -43,8 +43,8 @@ PaperPoisson paper_poisson(const StripResults& r, Model model, double ratio) {
   out.waves = mean(waves);
   out.measured = mean(measured);
   out.seeds = measured.size();
-  out.lowest = measured.empty() ? kNone : *std::min_element(measured.begin(), measured.end());
-  out.highest = measured.empty() ? kNone : *std::max_element(measured.begin(), measured.end());
+  out.lowest = measured.empty() ? reports::kNone : *std::min_element(measured.begin(), measured.end());
+  out.highest = measured.empty() ? reports::kNone : *std::max_element(measured.begin(), measured.end());
   return out;
 }
 

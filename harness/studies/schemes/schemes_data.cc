@@ -21,7 +21,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kAmplitude = 1e-9;  // m; every model here is linear
+constexpr double kSchemeAmplitude = 1e-9;  // m; every model here is linear
 constexpr long kEnergySteps = 10000;
 constexpr std::size_t kFirstSample = 4;  // of 200: step 200
 constexpr double kSoftest = 10.0;    // k_n/E_p of the reach curves
@@ -50,7 +50,7 @@ EnergyCurve follow_energy(const ddem::Assembly& a, const StripCampaign& s, doubl
   in.time_step = fraction * critical;
   in.steps = kEnergySteps;
   in.energy_samples = 200;
-  for (const double x : a.packing.x) in.initial.ux.push_back(kAmplitude * std::cos(std::numbers::pi * x / s.length));
+  for (const double x : a.packing.x) in.initial.ux.push_back(kSchemeAmplitude * std::cos(std::numbers::pi * x / s.length));
   const SimulationResult r = solver.solve(a, in);
   EnergyCurve curve{scheme.name, fraction, {}, {}, r.breakdown ? std::nullopt : r.energy_drift, 0.0};
   if (r.steps_done > 0) {
@@ -150,7 +150,7 @@ OrderCurve order_of(const StripCampaign& s, const StudiedScheme& scheme, const S
   in.contact.normal_stiffness = s.normal_stiffness;
   in.deformation = scheme.deformation;
   const double k = std::numbers::pi / (kColumns * radius);  // one wave over the lattice
-  for (const double x : a.packing.x) in.initial.uy.push_back(kAmplitude * std::cos(k * (x - a.packing.x.front())));
+  for (const double x : a.packing.x) in.initial.uy.push_back(kSchemeAmplitude * std::cos(k * (x - a.packing.x.front())));
   in.receivers = {{{0}}};
   // Shear along the rows is the slowest branch; the exact wave has converged strains.
   const double omega = HexagonalBloch({radius, s.density, 1.0, 0.0}, in.contact, in.deformation).frequencies({k, 0.0}).front().real();
@@ -161,7 +161,7 @@ OrderCurve order_of(const StripCampaign& s, const StudiedScheme& scheme, const S
     in.time_step = end / static_cast<double>(in.steps);
     const Signals u = solver.solve(a, in).signals;
     double worst = 0.0;
-    for (std::size_t n = 0; n < u.time.size(); ++n) worst = std::max(worst, std::abs(u.uy[0][n] / kAmplitude - std::cos(omega * u.time[n])));
+    for (std::size_t n = 0; n < u.time.size(); ++n) worst = std::max(worst, std::abs(u.uy[0][n] / kSchemeAmplitude - std::cos(omega * u.time[n])));
     curve.step_fraction.push_back(fraction);
     curve.error.push_back(worst);
   }

@@ -1,16 +1,16 @@
 #include "harness/studies/schemes/schemes_figures.h"
 
+#include "reports/number.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-reports::Color color_of(const std::string& scheme) {
+reports::Color scheme_color(const std::string& scheme) {
   if (scheme.starts_with("DEM")) return reports::Color::blue;
   if (scheme.starts_with("lagged,")) return reports::Color::orange;
   if (scheme.starts_with("lagged")) return reports::Color::green;
@@ -21,7 +21,7 @@ reports::Plot energy_panel(const SchemeStudy& study) {
   reports::Plot plot{.title = "energy of a free strip", .x = {.label = "time", .unit = "s"}, .y = {.label = "energy over that of step 200"}};
   for (const EnergyCurve& c : study.energy) {
     const bool gradients = c.scheme.ends_with("gradients");
-    plot.series.push_back({.name = fmt::format("{}, dt = {:g} of critical", c.scheme, c.step_fraction), .x = c.time, .y = c.energy, .color = gradients ? reports::Color::black : color_of(c.scheme),
+    plot.series.push_back({.name = fmt::format("{}, dt = {:g} of critical", c.scheme, c.step_fraction), .x = c.time, .y = c.energy, .color = gradients ? reports::Color::black : scheme_color(c.scheme),
                            .dash = gradients || c.step_fraction < 0.1 ? reports::Dash::dashed : reports::Dash::solid});
   }
   return plot;
@@ -33,8 +33,8 @@ reports::Plot reach_panel(const SchemeStudy& study) {
                      .y = {.label = "Poisson's ratio"}};
   reports::Series closed{.name = "closed form", .color = reports::Color::grey};
   for (const ReachCurve& c : study.reach) {
-    reports::Series s{.name = c.scheme + (c.scheme.ends_with("strain") ? " a step" : " strains"), .kind = reports::SeriesKind::markers, .color = color_of(c.scheme)};
-    for (const ReachPoint& p : c.points) s.x.push_back(p.softness), s.y.push_back(p.poisson.value_or(kNone));
+    reports::Series s{.name = c.scheme + (c.scheme.ends_with("strain") ? " a step" : " strains"), .kind = reports::SeriesKind::markers, .color = scheme_color(c.scheme)};
+    for (const ReachPoint& p : c.points) s.x.push_back(p.softness), s.y.push_back(p.poisson.value_or(reports::kNone));
     plot.series.push_back(s);
   }
   if (!study.reach.empty()) {
@@ -50,7 +50,7 @@ reports::Plot order_panel(const SchemeStudy& study) {
                      .x = {.label = "time step over critical", .scale = reports::Scale::log},
                      .y = {.label = "error over amplitude", .scale = reports::Scale::log}};
   for (const OrderCurve& c : study.order) {
-    plot.series.push_back({.name = c.scheme, .kind = reports::SeriesKind::line_markers, .x = c.step_fraction, .y = c.error, .color = color_of(c.scheme)});
+    plot.series.push_back({.name = c.scheme, .kind = reports::SeriesKind::line_markers, .x = c.step_fraction, .y = c.error, .color = scheme_color(c.scheme)});
   }
   return plot;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dem/assembly/contacts.h"
 #include "dem/core/narrow.h"
@@ -19,11 +18,11 @@
 #include "harness/run/section_speeds.h"
 #include "meshes/packings/hexagonal.h"
 #include "meshes/packings/tile.h"
+#include "reports/number.h"
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Larger strips are left out: their statics alone take minutes.
 constexpr std::int64_t kMostDiscs = 20000;
@@ -147,7 +146,7 @@ std::vector<SizeMean> means_of(const std::vector<SizedStrip>& strips, StripPacki
 
 }  // namespace
 
-double SizedWave::error() const { return measured.centroid ? *measured.centroid / (reference * s0.centroid.value_or(1.0)) - 1.0 : kNone; }
+double SizedWave::error() const { return measured.centroid ? *measured.centroid / (reference * s0.centroid.value_or(1.0)) - 1.0 : reports::kNone; }
 
 std::vector<SizeMean> SizeStudy::mean_bias(StripPacking packing, std::size_t ratio) const {
   return means_of(strips, packing, [&](const SizedStrip& s) { return s.bias[ratio].value(); });
@@ -160,7 +159,7 @@ std::vector<SizeMean> SizeStudy::mean_error(StripPacking packing, StripWave wave
 PowerLaw power_law(const std::vector<SizeMean>& means) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const SizeMean& m : means) {
-    const double u = std::log(m.radius_over_width), v = m.value.value < 0.0 ? std::log(-m.value.value) : kNone;
+    const double u = std::log(m.radius_over_width), v = m.value.value < 0.0 ? std::log(-m.value.value) : reports::kNone;
     n += 1.0, x += u, y += v, xx += u * u, xy += u * v;
   }
   const double power = (n * xy - x * y) / (n * xx - x * x);

@@ -14,8 +14,8 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kAmplitude = 1e-6;       // mean radii, of what is judged
-constexpr double kStepFraction = 0.2;     // likewise
+constexpr double kSolverAmplitude = 1e-6;       // mean radii, of what is judged
+constexpr double kSolverStepFraction = 0.2;     // likewise
 constexpr double kRoundOff = 1e-9;        // relative changes below which no order is to be seen
 constexpr double kMeanRadius = 1e-4;      // m, about, of both strips
 constexpr int kMiddle = 100;              // the disc whose signal is shown
@@ -98,7 +98,7 @@ double nanoseconds_of(const DemRun& run) {
 
 void compare_motions(const SolverTask& task, const Solver& solver, SolverResult& r) {
   DemRun theirs, ours;
-  const Signals a = motion_by(builtin_solver(), task, kAmplitude, kStepFraction, 1, &ours), b = motion_by(solver, task, kAmplitude, kStepFraction, 1, &theirs);
+  const Signals a = motion_by(builtin_solver(), task, kSolverAmplitude, kSolverStepFraction, 1, &ours), b = motion_by(solver, task, kSolverAmplitude, kSolverStepFraction, 1, &theirs);
   r.displacement_error = displacement_difference(a, b);
   r.rotation_error = task.stiffness_ratio > 0.0 ? difference(a.theta, b.theta, largest(a.theta)) : 0.0;
   r.energy_drift = theirs.result.energy_drift;
@@ -107,14 +107,14 @@ void compare_motions(const SolverTask& task, const Solver& solver, SolverResult&
   r.time = a.time, r.builtin_signal = (shear ? a.uy : a.ux)[kMiddle], r.signal = (shear ? b.uy : b.ux)[kMiddle];
   for (const double amplitude : {1e-4, 1e-3, 2e-3}) {
     r.amplitude.push_back(amplitude);
-    r.amplitude_error.push_back(displacement_difference(motion_by(builtin_solver(), task, amplitude, kStepFraction, 1), motion_by(solver, task, amplitude, kStepFraction, 1)));
+    r.amplitude_error.push_back(displacement_difference(motion_by(builtin_solver(), task, amplitude, kSolverStepFraction, 1), motion_by(solver, task, amplitude, kSolverStepFraction, 1)));
   }
 }
 
 void halve_steps(const SolverTask& task, const Solver& solver, SolverResult& r) {
-  Signals before = motion_by(solver, task, kAmplitude, 0.4, 1);
+  Signals before = motion_by(solver, task, kSolverAmplitude, 0.4, 1);
   for (const auto& [fraction, every] : {std::pair{0.2, 2}, {0.1, 4}}) {
-    Signals now = motion_by(solver, task, kAmplitude, fraction, every);
+    Signals now = motion_by(solver, task, kSolverAmplitude, fraction, every);
     r.step.push_back(fraction);
     r.step_change.push_back(displacement_difference(now, before));
     before = std::move(now);
@@ -128,7 +128,7 @@ double speed_of(const DemRun& run, std::string& reason) {
 }
 
 void measure_speeds(const SolverTask& task, const Solver& solver, SolverResult& r) {
-  const Scene scene = scene_of(task, kAmplitude, kStepFraction, 1, "pairs = 3\nsection = true", "");
+  const Scene scene = scene_of(task, kSolverAmplitude, kSolverStepFraction, 1, "pairs = 3\nsection = true", "");
   r.builtin_speed = speed_of(run_by(builtin_solver(), scene), r.speed_reason);
   r.speed = speed_of(run_by(solver, scene), r.speed_reason);
   const bool shear = task.packing == "random";

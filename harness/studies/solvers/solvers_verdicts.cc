@@ -7,7 +7,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kMotion = 1e-4, kSpeed = 1e-4, kStatic = 0.02;
+constexpr double kMotion = 1e-4, kSpeed = 1e-4, kStaticLimit = 0.02;
 
 std::optional<double> ratio(double actual, double to) { return actual > 0.0 && to > 0.0 ? std::optional(actual / to) : std::nullopt; }
 
@@ -25,7 +25,7 @@ reports::Verdict solver_verdict(const ComparedSolver& c) {
     v.criteria.push_back(judge("displacements", r.displacement_error, {0.0, 0.0, kMotion}, "", same));
     if (c.task.stiffness_ratio > 0.0) v.criteria.push_back(judge("rotations", r.rotation_error, {0.0, 0.0, kMotion}, "", same));
     v.criteria.push_back(judge("speed / built-in", ratio(r.speed, r.builtin_speed), absolute(1.0, kSpeed), "", "picks of the same pulse at the same sections"));
-    v.criteria.push_back(judge("speed / static", ratio(r.speed, r.static_speed), absolute(1.0, kStatic + (r.builtin_speed > 0.0 && r.static_speed > 0.0 ? std::abs(r.builtin_speed / r.static_speed - 1.0) : 0.0)), "",
+    v.criteria.push_back(judge("speed / static", ratio(r.speed, r.static_speed), absolute(1.0, kStaticLimit + (r.builtin_speed > 0.0 && r.static_speed > 0.0 ? std::abs(r.builtin_speed / r.static_speed - 1.0) : 0.0)), "",
                                "2 %, and what the built-in solver's pulse disperses by"));
     const bool lagged = c.task.law.starts_with("lagged");
     if (const auto order = r.order())

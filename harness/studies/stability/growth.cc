@@ -11,7 +11,7 @@
 namespace ddem::harness {
 namespace {
 
-constexpr double kAmplitude = 1e-9;  // m; every model here is linear
+constexpr double kGrowthAmplitude = 1e-9;  // m; every model here is linear
 constexpr long kFewestSteps = 15, kSecondLook = 31, kMostSteps = 4000;
 constexpr long kNeutralSteps = 300;    // of schemes without memory, which stay in the motion that they are released from
 constexpr double kWantedGrowth = 35.0, kWantedDecay = 3.0;  // of ln of the amplitude in a run
@@ -65,9 +65,9 @@ std::optional<double> release(const Solver& solver, const Subject& subject, cons
   const auto set = [&](const std::vector<Complex>& q, double unit, std::vector<double>& u, std::vector<double>& v) {
     for (const Complex& value : q) u.push_back(unit * value.real()), v.push_back(unit * (rate * value).real());
   };
-  set(start.ux, kAmplitude, in.initial.ux, in.initial.vx);
-  set(start.uy, kAmplitude, in.initial.uy, in.initial.vy);
-  set(start.theta, kAmplitude / r, in.initial.theta, in.initial.omega);
+  set(start.ux, kGrowthAmplitude, in.initial.ux, in.initial.vx);
+  set(start.uy, kGrowthAmplitude, in.initial.uy, in.initial.vy);
+  set(start.theta, kGrowthAmplitude / r, in.initial.theta, in.initial.omega);
   const bool lagged = in.deformation.scheme == Scheme::lagged;
   const double growth = std::log(std::abs(z)), wanted = growth > 0.0 ? kWantedGrowth : kWantedDecay;
   in.steps = std::clamp(static_cast<long>(std::min(wanted / std::max(std::abs(growth), 1e-12), 1e9)), kFewestSteps, lagged ? kMostSteps : kNeutralSteps);
@@ -76,7 +76,7 @@ std::optional<double> release(const Solver& solver, const Subject& subject, cons
   // rid of the motions that grow a little slower. So all discs are displaced alike besides, which moves no overlap, by as much
   // as allows the growth; its round-off grows like the rest.
   const double grown = growth * static_cast<double>((in.steps - 1) / 16 * 16);
-  const double offset = kAmplitude * std::exp(grown - 6.0) * (grown > 6.0 ? 1.0 : 0.0);
+  const double offset = kGrowthAmplitude * std::exp(grown - 6.0) * (grown > 6.0 ? 1.0 : 0.0);
   for (double& u : in.initial.ux) u += offset;
   for (int p = 0; p < static_cast<int>(a.size()); ++p) in.receivers.push_back({{p}});
   const Signals signals = solver.solve(a, in).signals;
@@ -94,8 +94,8 @@ std::optional<double> release(const Solver& solver, const Subject& subject, cons
 
 bool noise_grows(const Solver& solver, const Subject& subject, SimulationInput in) {
   in.steps = kNoiseSteps;
-  in.initial.ux = steady_noise(subject.assembly().size(), 1, kAmplitude);
-  in.initial.uy = steady_noise(subject.assembly().size(), 2, kAmplitude);
+  in.initial.ux = steady_noise(subject.assembly().size(), 1, kGrowthAmplitude);
+  in.initial.uy = steady_noise(subject.assembly().size(), 2, kGrowthAmplitude);
   return solver.solve(subject.assembly(), in).breakdown.has_value();
 }
 

@@ -14,7 +14,7 @@ namespace {
 // The noise run: half the critical step, where the growth of N is fastest, on a patch small enough to be
 // quick.
 constexpr double kNoiseStepFraction = 0.5, kNoiseAmplitude = 1e-9;  // of the critical step; m
-constexpr long kNoiseSteps = 20000;
+constexpr long kReleaseSteps = 20000;
 constexpr long kImplicitNoiseSteps =
     4000;  // several passes a step, and an invariant that would show growth at once
 constexpr std::int64_t kNoiseColumns = 10, kNoiseRows = 10;
@@ -35,7 +35,7 @@ StabilityOutcome release_noise(const StripCampaign& s, const StripMaterial& key,
   StabilityOutcome out;
   out.key = key;
   out.expected_unstable = expected_unstable(s, key);
-  out.steps = key.model == Model::implicit_full ? kImplicitNoiseSteps : kNoiseSteps;
+  out.steps = key.model == Model::implicit_full ? kImplicitNoiseSteps : kReleaseSteps;
   try {
     StripCampaign small = s;
     small.columns = kNoiseColumns;

@@ -1,14 +1,14 @@
 #include "harness/studies/stability/stability_figures.h"
 
+#include "reports/number.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kShownRatio = 0.3, kBeyondLimit = 0.5, kShownPoisson = 0.3;
 constexpr double kAgreement = 0.02;
 
@@ -30,7 +30,7 @@ std::string title_of(const StabilityKey& key) {
 reports::Plot panel_of(const StabilityMap& map) {
   reports::HeatMap heat{.x = map.softness, .y = map.step_fraction, .value = {}, .value_axis = {.label = "growth a step", .limits = reports::Limits{1e-5, 1.0}},
                         .scale = reports::ColorScale::signed_log};
-  for (const StabilityPoint& p : map.points) heat.value.push_back(p.measured.value_or(kNone));
+  for (const StabilityPoint& p : map.points) heat.value.push_back(p.measured.value_or(reports::kNone));
   reports::Plot plot{.title = title_of(map.key), .x = {.label = "kₙ/Eₚ", .scale = reports::Scale::log}, .y = {.label = "step over critical", .limits = reports::Limits{0.0, 1.15}}, .map = heat};
   if (!map.boundary_softness.empty()) {
     plot.series.push_back({.name = "predicted limit", .x = map.boundary_softness, .y = map.boundary_fraction, .color = reports::Color::black});

@@ -17,14 +17,14 @@ namespace ddem::harness {
 namespace {
 
 constexpr int kCells = 6;         // of the lattice along each side: holds the corners and edge centres of the zone
-constexpr double kRadius = 1e-4;  // m; nothing depends on it
+constexpr double kLatticeRadius = 1e-4;  // m; nothing depends on it
 
 /// Those of the periodic piece, one of all that the lattice's rotations and mirrors take into each other: they have the same
 /// factors.
 std::vector<WaveVector> waves_of_the_cell() {
   std::vector<WaveVector> waves;
   std::set<std::array<int, 3>> seen;
-  const double unit = 2.0 * std::numbers::pi / (kCells * kRadius);
+  const double unit = 2.0 * std::numbers::pi / (kCells * kLatticeRadius);
   for (int i = 0; i <= kCells / 2; ++i) {
     for (int j = 0; j < kCells; ++j) {
       // Phases along three bonds 120 degrees apart, in units of pi/kCells: the symmetries permute them, or turn all signs.
@@ -65,7 +65,7 @@ Start Subject::worst(const DeformationParameters& d, double dt) const {
 }
 
 HexagonalBloch Subject::bloch(const DeformationParameters& d) const {
-  return {{kRadius, a_.density, a_.thickness, 0.0}, contact_, d};
+  return {{kLatticeRadius, a_.density, a_.thickness, 0.0}, contact_, d};
 }
 
 Start Subject::worst_wave(const DeformationParameters& d, double dt) const {
@@ -136,11 +136,11 @@ Subject subject_of(const StripCampaign& s, const StabilityGrid& grid, const Stab
   contact.normal_stiffness = s.normal_stiffness;
   contact.stiffness_ratio = key.stiffness_ratio;
   if (key.packing == StripPacking::hexagonal) {
-    const Packing p = packings::hexagonal({.columns = kCells, .rows = kCells, .radius = kRadius, .periodic_x = true, .periodic_y = true});
-    return {make_assembly(p, bonds_within_gap(p, 0.1 * kRadius), 1.0, s.density), true, contact};
+    const Packing p = packings::hexagonal({.columns = kCells, .rows = kCells, .radius = kLatticeRadius, .periodic_x = true, .periodic_y = true});
+    return {make_assembly(p, bonds_within_gap(p, 0.1 * kLatticeRadius), 1.0, s.density), true, contact};
   }
-  // Square, of mean radius near kRadius: the discs fill 0.85 of it.
-  const double side = std::sqrt(grid.random_discs * std::numbers::pi / 0.85) * kRadius;
+  // Square, of mean radius near kLatticeRadius: the discs fill 0.85 of it.
+  const double side = std::sqrt(grid.random_discs * std::numbers::pi / 0.85) * kLatticeRadius;
   const Packing p = packings::random_jammed({.length = side, .width = side, .discs = grid.random_discs, .seed = static_cast<std::uint64_t>(s.seeds.front())});
   return {make_assembly(p, bonds_within_gap(p, 0.3 * mean_radius(p)), 1.0, s.density, RattlerRule::peel), false, contact};
 }

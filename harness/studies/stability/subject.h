@@ -11,8 +11,6 @@ namespace ddem::harness {
 
 using Complex = std::complex<double>;
 
-inline constexpr double kNoGrowth = 1e-9;  ///< of a factor: it keeps its size
-
 /// A motion to start from, q_0 and its factor.
 struct Start {
   Complex factor;

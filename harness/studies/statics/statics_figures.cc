@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "harness/studies/waves/waves_figures.h"
 #include "harness/studies/waves/pickers.h"
+#include "reports/number.h"
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastShown = 1e-16;  // half a bit: what is exact has a place on a logarithmic axis
 constexpr std::array kBulkWaves = {StripWave::shear, StripWave::p};
 
@@ -29,7 +28,7 @@ constexpr std::array<Way, 2> kDriven = {
      {"pulse, by centroid", &SpeedErrors::centroid, reports::Color::orange}}};
 
 /// The two whose waves have no error of their own in the step; of a campaign without them, all.
-std::vector<Model> shown_models(const StripCampaign& s) {
+std::vector<Model> static_models(const StripCampaign& s) {
   std::vector<Model> shown;
   for (const Model m : s.models) {
     if (m == Model::dem || m == Model::implicit_full) shown.push_back(m);
@@ -47,7 +46,7 @@ const WaveOutcome* pulse_in(const StripResults& r, const StripMaterial& key, Str
 
 /// A gap where there is none.
 double on_log_axis(const std::optional<double>& error) {
-  return error ? std::max(std::abs(*error), kLeastShown) : kNone;
+  return error ? std::max(std::abs(*error), kLeastShown) : reports::kNone;
 }
 
 reports::Plot error_panel(const StripResults& r, Model model, StripWave wave) {
@@ -104,7 +103,7 @@ reports::Figure speed_error_figure(const StripResults& r) {
           "round-off, Bloch limits below 1e-9; a pulse is off by its dispersion, most by its peak, ten times "
           "less by its centroid, which travels as infinitely long waves do. Gaps: not measured."};
   if (!r.has_waves()) figure.caption += " No pulse was sent here: ddem validate without --static adds them.";
-  for (const Model model : shown_models(r.campaign)) {
+  for (const Model model : static_models(r.campaign)) {
     for (const StripWave wave : kBulkWaves) figure.panels.push_back(error_panel(r, model, wave));
   }
   return figure;
@@ -126,21 +125,21 @@ reports::Table speed_error_table(const StripResults& r) {
     for (const Way& way : kDriven) add_columns(wave, way);
   }
   for (const char* what : {"static", "Bloch limit", "a pulse"}) t.columns.push_back({what, "s", 2});
-  for (const Model model : shown_models(r.campaign)) {
+  for (const Model model : static_models(r.campaign)) {
     for (const double ratio : r.campaign.stiffness_ratios) {
       const StaticOutcome* s = lattice_of(r, model, ratio);
       if (s == nullptr) continue;
       std::vector<reports::Cell> row = {name(model), ratio};
       for (const StripWave wave : kBulkWaves) {
         const SpeedErrors errors = lattice_errors(r, *s, wave);
-        for (const Way& way : kWithoutSteps) row.emplace_back((errors.*way.error).value_or(kNone));
+        for (const Way& way : kWithoutSteps) row.emplace_back((errors.*way.error).value_or(reports::kNone));
         for (const Way& way : kDriven)
-          row.push_back(r.has_waves() ? reports::Cell((errors.*way.error).value_or(kNone))
+          row.push_back(r.has_waves() ? reports::Cell((errors.*way.error).value_or(reports::kNone))
                                       : reports::Cell("not run"));
       }
-      row.emplace_back(s->failure.empty() ? s->solve_seconds : kNone);
-      row.emplace_back(s->bloch ? s->bloch->seconds : kNone);
-      row.push_back(r.has_waves() ? reports::Cell(pulse_seconds(r, s->key).value_or(kNone))
+      row.emplace_back(s->failure.empty() ? s->solve_seconds : reports::kNone);
+      row.emplace_back(s->bloch ? s->bloch->seconds : reports::kNone);
+      row.push_back(r.has_waves() ? reports::Cell(pulse_seconds(r, s->key).value_or(reports::kNone))
                                   : reports::Cell("not run"));
       t.rows.push_back(row);
     }

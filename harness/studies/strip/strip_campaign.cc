@@ -24,7 +24,7 @@ std::string slug(const StripCase& c) {
 }
 
 /// Amplitude: small against a disc, so that the linear models describe the nonlinear ones (theory section 5).
-constexpr double kAmplitude = 1e-8;
+constexpr double kStripAmplitude = 1e-8;
 
 std::string material_text(const StripCampaign& s, const StripCase& c) {
   std::string t = fmt::format("[material]\ndensity = {}\n\n[contact]\nnormal_stiffness = {}\nstiffness_ratio = {}\nnew_contacts = \"off\"\n\n",
@@ -51,10 +51,10 @@ std::string packing_text(const StripCampaign& s, const StripCase& c, const std::
 std::string load_text(const StripCampaign& s, const StripCase& c, double speed) {
   const char* wave = c.wave == StripWave::shear ? "shear" : "longitudinal";
   if (c.protocol == Protocol::paper) {
-    return fmt::format("[initial]\nwave = \"{}\"\nshape = \"column\"\namplitude = {}\n\n", wave, kAmplitude);
+    return fmt::format("[initial]\nwave = \"{}\"\nshape = \"column\"\namplitude = {}\n\n", wave, kStripAmplitude);
   }
   return fmt::format("[drive]\nwave = \"{}\"\nshape = \"sin2\"\nduration = {}\namplitude = {}\n\n", wave,
-                     s.pulse_length / speed, kAmplitude);
+                     s.pulse_length / speed, kStripAmplitude);
 }
 
 /// Of lagged strains the step is a part: what they do to waves is of first order in it.

@@ -1,16 +1,16 @@
 #include "harness/studies/waves/waves_figures.h"
 
+#include "reports/number.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace ddem::harness {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::size_t kShownPairs = 2;  // A and B, as in the paper
 
@@ -24,11 +24,11 @@ std::vector<double> times(const Recording& recording, std::size_t samples) {
 std::pair<double, double> range_of(const std::vector<double>& values) {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (const double v : values) {
-    if (std::isnan(v)) return {kNone, kNone};
+    if (std::isnan(v)) return {reports::kNone, reports::kNone};
     lowest = std::min(lowest, v);
     highest = std::max(highest, v);
   }
-  return values.empty() ? std::pair{kNone, kNone} : std::pair{lowest, highest};
+  return values.empty() ? std::pair{reports::kNone, reports::kNone} : std::pair{lowest, highest};
 }
 
 reports::Plot velocity_panel(const StripResults& r, StripWave wave) {
@@ -54,7 +54,7 @@ reports::Plot velocity_panel(const StripResults& r, StripWave wave) {
   for (const FemOutcome& f : r.fem) {
     if (f.wave != wave || f.uniaxial) continue;
     fem.x.push_back(f.key.stiffness_ratio);
-    fem.y.push_back(f.speed.value_or(kNone));
+    fem.y.push_back(f.speed.value_or(reports::kNone));
   }
   if (!fem.x.empty()) plot.series.push_back(fem);
   return plot;
@@ -77,10 +77,10 @@ SpeedPoint random_speed(const StripResults& r, Model model, double ratio, Protoc
   for (const std::int64_t seed : r.campaign.seeds) {
     const WaveOutcome* w = r.find(StripCase{StripPacking::random, seed, model, ratio, protocol, wave});
     if (w != nullptr && w->speed) measured.push_back(*w->speed);
-    statics.push_back(w != nullptr ? w->static_speed : kNone);
-    kinematic.push_back(w != nullptr ? w->kinematic_speed : kNone);
+    statics.push_back(w != nullptr ? w->static_speed : reports::kNone);
+    kinematic.push_back(w != nullptr ? w->kinematic_speed : reports::kNone);
   }
-  const Uncertain mean = measured.empty() ? Uncertain{kNone, kNone} : sample_statistics(measured);
+  const Uncertain mean = measured.empty() ? Uncertain{reports::kNone, reports::kNone} : sample_statistics(measured);
   const auto [lowest, highest] = range_of(measured);
   return {mean, lowest, highest, sample_statistics(statics).value, sample_statistics(kinematic).value};
 }
@@ -94,8 +94,8 @@ PoissonCurve poisson_curve(const StripResults& r, Model model) {
       const WaveOutcome* p = r.find(StripCase{StripPacking::random, seed, model, ratio, Protocol::long_wave, StripWave::p});
       const WaveOutcome* s = r.find(StripCase{StripPacking::random, seed, model, ratio, Protocol::long_wave, StripWave::shear});
       const bool both = p != nullptr && s != nullptr;
-      measured.push_back(both ? nu(p->speed.value_or(kNone), s->speed.value_or(kNone)) : kNone);
-      statics.push_back(both ? nu(p->static_speed, s->static_speed) : kNone);
+      measured.push_back(both ? nu(p->speed.value_or(reports::kNone), s->speed.value_or(reports::kNone)) : reports::kNone);
+      statics.push_back(both ? nu(p->static_speed, s->static_speed) : reports::kNone);
     }
     const Uncertain m = sample_statistics(measured);
     curve.ratio.push_back(ratio);
@@ -124,7 +124,7 @@ reports::Figure poisson_figure(const StripResults& r) {
       const WaveOutcome* sh = r.find(StripCase{StripPacking::hexagonal, 0, model, s.key.stiffness_ratio, Protocol::long_wave, StripWave::shear});
       const bool both = p != nullptr && sh != nullptr && p->speed && sh->speed;
       measured.x.push_back(s.key.stiffness_ratio);
-      measured.y.push_back(both ? 1.0 - 2.0 * (*sh->speed / *p->speed) * (*sh->speed / *p->speed) : kNone);
+      measured.y.push_back(both ? 1.0 - 2.0 * (*sh->speed / *p->speed) * (*sh->speed / *p->speed) : reports::kNone);
       closed.x.push_back(s.key.stiffness_ratio);
       closed.y.push_back((s.kinematic.bulk - s.kinematic.shear) / (s.kinematic.bulk + s.kinematic.shear));
     }

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "harness/bench/triad.h"
+#include "harness/measure/median.h"
 
 namespace ddem::harness::bench {
 namespace {
