@@ -20,11 +20,20 @@ if(DDEM_HAS_LLD)
   add_link_options(-fuse-ld=lld)
 endif()
 
+# Reading and instantiating headers takes most of the time. Names in unnamed namespaces are unique in a library.
+if(DDEM_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  # A source of several is not the main one, of which alone g++ lets a type have members of unnamed namespaces.
+  set(DDEM_UNITY_FLAGS $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
+
 add_library(ddem_flags INTERFACE)
 target_compile_options(ddem_flags INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
   # g++ 12 sees overlaps in "text" + std::string that are not there.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  ${DDEM_UNITY_FLAGS}
   # No contraction: a fused multiply-add would give other bits on other instruction sets.
   -ffp-contract=off
   # ccache needs it where headers are precompiled.
