@@ -70,9 +70,9 @@ void claim_bench_folder(const BenchOptions& o) {
   claim_outputs({{files.json, OutputKind::bench_json}, {files.html, OutputKind::report}}, {}, o.force);
 }
 
-void write_files(const std::string& folder, const bench::BenchResults& results) {
+void write_files(const std::string& folder, const bench::BenchResults& results, const Json& document) {
   const Files files(folder);
-  write_json(files.json, bench::bench_json(results));
+  write_json(files.json, document);
   write_file(files.html, reports::render_html(bench::bench_report(results)));
 }
 
@@ -89,9 +89,10 @@ int run(const BenchOptions& o) {
     Progress progress(bench::bench_work(plan), "measuring");
     results = bench::run_bench(plan, [&] { progress.advance(); });
   }
-  if (!o.folder.empty()) write_files(o.folder, results);
+  const Json document = bench::bench_json(results);
+  if (!o.folder.empty()) write_files(o.folder, results, document);
   if (o.json) {
-    print_json(bench::bench_json(results));
+    print_json(document);
     return static_cast<int>(ExitCode::done);
   }
   fmt::print("triad: {:.1f} GB/s with one thread, {:.1f} at most ({} threads)\n", results.triad_one_thread, results.triad, results.triad_threads);
