@@ -93,6 +93,13 @@ Json unsealed(Json document, const std::string& place) {
   return document;
 }
 
+void require_schema_version(const Json& document, const std::string& place) {
+  const Json version = document.is_object() ? document.value("schema_version", Json()) : Json();
+  if (version == 1) return;
+  throw InputError(version.is_number_integer() ? fmt::format("{}: schema_version = {}, but this ddem reads 1: use the ddem that wrote it", place, version.dump())
+                                               : place + ": not of ddem: it has no schema_version");
+}
+
 Json read_json(const std::filesystem::path& path) {
   return unsealed(parse_json(read_regular_file(path), path.string()), path.string());
 }

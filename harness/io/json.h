@@ -39,6 +39,9 @@ Json sealed(Json document);
 /// older program, or made by hand) is taken as it is.
 Json unsealed(Json document, const std::string& place);
 
+/// Throws InputError unless the member "schema_version" is 1, the only version there is; another is named, with what to do.
+void require_schema_version(const Json& document, const std::string& place);
+
 /// Of a regular file, unsealed. Throws InputError.
 Json read_json(const std::filesystem::path& path);
 

@@ -92,7 +92,7 @@ std::string baseline_text(const Baseline& baseline) {
 Baseline parse_baseline(const std::string& text, const std::string& place) {
   try {
     const Json j = unsealed(parse_json(text, place), place);
-    if (j.at("schema_version") != 1) throw InputError(place + ": not a baseline: schema_version is not 1");
+    require_schema_version(j, place);
     Baseline baseline;
     std::vector<std::string> problems;
     for (const auto& [key, line] : j.at("metrics").items()) {

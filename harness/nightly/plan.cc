@@ -65,7 +65,7 @@ Plan read_plan(const std::filesystem::path& folder) {
   try {
     if (!j.contains("digest")) throw InputError(path + ": not a plan, as ddem validate -o writes it: its digest is missing");
     j = unsealed(std::move(j), path);
-    if (j.at("schema_version") != 1) throw InputError(path + ": not a plan of this ddem: its schema_version is not 1");
+    require_schema_version(j, path);
     Plan plan{j.at("program"), j.at("campaign"), {}, j.value("source", "")};
     for (const Json& u : j.at("units")) plan.units.push_back({u.at("id"), u.at("identity")});
     return plan;

@@ -64,8 +64,8 @@ Json summary_json(const Summary& s) {
 }
 
 Summary parse_summary(const Json& j, const std::string& place) {
+  require_schema_version(j, place);
   try {
-    if (j.at("schema_version") != 1) throw InputError("schema_version is not 1");
     Summary s;
     s.title = j.at("title");
     s.wall_seconds = j.at("wall_seconds");
