@@ -1,5 +1,5 @@
 #pragma once
-// bond_style ddem and fix ddem, made known to a LAMMPS that runs.
+// bond_style ddem, pair_style ddem and fix ddem, made known to a LAMMPS that runs.
 
 namespace LAMMPS_NS {
 class LAMMPS;

@@ -15,6 +15,7 @@
 #include "harness/solvers/lammps_dump.h"
 #include "harness/solvers/ready.h"
 #include "harness/solvers/reduced.h"
+#include "harness/solvers/solver.h"
 
 namespace ddem::harness {
 namespace {
@@ -35,7 +36,7 @@ double longest_bond(const ddem::Assembly& a) { return a.bonds.size() == 0 ? 0.0 
 
 class Input {
  public:
-  explicit Input(const Exchange& e) : e_(e), role_(e.assembly.size(), 0u), largest_(std::ranges::max(e.assembly.packing.radius)) {
+  explicit Input(const Exchange& e) : e_(e), role_(e.assembly.size(), 0u), largest_(std::ranges::max(e.assembly.packing.radius)), touching_(may_close_gaps(e.assembly, e.input)) {
     const SimulationInput& in = e.input;
     const auto mark = [this](const std::vector<std::uint8_t>& held, Role role) {
       for (std::size_t d = 0; d < held.size(); ++d) {
@@ -87,13 +88,14 @@ class Input {
     write(text, "# {}{}\n# mpirun -np 2 ddem-lammps -in {}\nunits si\ndimension 2\n# Both ranks of a bond find its force: one exchange a step.\nnewton off\n", kMark, title(), kLammpsScript);
     write(text, "boundary {} {} p\natom_style hybrid sphere bond\n", p.period.x > 0.0 ? "p" : "f", p.period.y > 0.0 ? "p" : "f");
     // Discs are sorted at the start of a run: neighbours in space are neighbours in memory.
-    write(text, "atom_modify map array sort 1000 {}\npair_style none\nspecial_bonds lj/coul 1 1 1\nbond_style ddem {}\n", 4.0 * largest_,
-          in.contact.kinematics == Kinematics::linear ? "linear" : "nonlinear");
+    write(text, "atom_modify map array sort 1000 {}\n{}\nspecial_bonds lj/coul 1 1 1\nbond_style ddem {}\n", 4.0 * largest_, pair_style(), in.contact.kinematics == Kinematics::linear ? "linear" : "nonlinear");
     const double skin = 0.5 * largest_;
-    write(text, "# Ghosts reach beyond the longest bond.\ncomm_modify cutoff {}\nneighbor {} bin\n# Bonds have the geometry of the reference: lists need no renewal while nothing else acts.\nneigh_modify once yes\n",
-          std::max(3.0 * largest_, 1.1 * longest_bond(e_.assembly)) + 2.0 * skin, skin);
+    write(text, "# Ghosts reach beyond the longest bond.\ncomm_modify cutoff {}\nneighbor {} bin\n{}", std::max(3.0 * largest_, 1.1 * longest_bond(e_.assembly)) + 2.0 * skin,
+          skin, touching_ ? "neigh_modify delay 0 every 1 check yes\n"
+                          : "# Bonds have the geometry of the reference: lists need no renewal while nothing else acts.\nneigh_modify once yes\n");
     write(text, "read_data {}\n# Discs, of this density times the thickness\nset group all density/disc {}\n{}\n", kLammpsData,
           e_.assembly.density * e_.assembly.thickness, stiffness());
+    if (touching_) write(text, "pair_coeff * * {}\n", in.contact.uniform() ? fmt::to_string(in.contact.normal_stiffness) : fmt::format("modulus {}", in.contact.contact_modulus));
     write_groups(text);
     write(text, "{}\ntimestep {}\n", fix(), in.time_step);
     write(text, "thermo 100000000\nthermo_modify lost ignore norm no\n"
@@ -121,6 +123,9 @@ class Input {
     const auto [least, most] = std::ranges::minmax(places);
     return fmt::format("{} {}", least - kRoom * largest_, most + kRoom * largest_);
   }
+
+  /// Discs that are not bonded and may touch; strains up to a tenth move boundaries by so much.
+  std::string pair_style() const { return touching_ ? fmt::format("pair_style ddem {}", 0.2 * largest_) : "pair_style none"; }
 
   std::string stiffness() const {
     const ContactParameters& c = e_.input.contact;
@@ -169,6 +174,7 @@ class Input {
   std::vector<unsigned> role_;
   std::map<unsigned, int> type_;  // of each set of roles that some disc has
   double largest_;                // radius
+  bool touching_;                 // the load may close gaps
 };
 
 std::string Input::strain() const {
@@ -207,6 +213,7 @@ std::string lammps_ddem_refusal(const ddem::Assembly& a, const SimulationInput& 
   const bool implicit = d.scheme == Scheme::implicit;
   if (implicit && d.solver != StrainSolver::polynomial) return "implicit strains by conjugate gradients (use solver = \"polynomial\")";
   if (implicit && in.contact.kinematics == Kinematics::nonlinear) return "implicit strains with nonlinear kinematics, of which their polynomial is not made";
+  if (implicit && may_close_gaps(a, in)) return "implicit strains with new contacts, which this load may close (or set contact.new_contacts = \"off\")";
   for (const double period : {a.packing.period.x, a.packing.period.y}) {
     if (period > 0.0 && !(period > 2.0 * longest_bond(a))) return "a period that is not above twice the longest bond";
   }
@@ -238,6 +245,7 @@ std::shared_ptr<const Solver> lammps_ddem_solver(const ReadyOptions& o) {
   d.version_command = {program, "--version"};
   d.abilities.laws = builtin_solver().abilities().laws;
   d.abilities.nonlinear = true;
+  d.abilities.new_contacts = true;
   return external_solver(std::move(d), {write_lammps_ddem, read_motion, {}, lammps_ddem_refusal});
 }
 

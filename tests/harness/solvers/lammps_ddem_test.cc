@@ -107,36 +107,6 @@ TEST_F(OnLammps, OtherIntegratorsMoveDiscs) {
   EXPECT_GT(difference(ours.theta, integrated("nve/sphere").theta), 1e-2);
 }
 
-/// Rows of numbers that the script printed.
-std::vector<std::vector<double>> printed_rows(const std::string& said) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(said);
-  bool begun = false;  // by a line "Step ...", which later versions of LAMMPS indent
-  for (std::string line; std::getline(lines, line) && !(begun && line.starts_with("Loop"));) {
-    if (!begun) {
-      std::string first;
-      std::istringstream(line) >> first;
-      begun = first == "Step";
-      continue;
-    }
-    std::istringstream words(line);
-    std::vector<double> row;
-    for (double value = 0.0; words >> value;) row.push_back(value);
-    if (!row.empty()) rows.push_back(row);
-  }
-  return rows;
-}
-
-std::vector<std::vector<double>> thermo(const PreparedRun& run, int ranks, const std::string& before, const std::string& columns) {
-  const LammpsFolder folder(run);
-  const SubprocessResult done = folder.run(ranks, [&](std::string script) {
-    return replaced(std::move(script), "thermo 100000000\nthermo_modify",
-                    before + "thermo 10\nthermo_style custom step " + columns + "\nthermo_modify format float %.17g");
-  });
-  EXPECT_TRUE(done.succeeded()) << done.standard_output;
-  return printed_rows(done.standard_output);
-}
-
 /// Contact, strain and kinetic energy, of motion and of turning: their sum oscillates by the square of the step, and does not drift.
 TEST_F(OnLammps, EnergiesAddUp) {
   for (const std::string& law : {std::string(), implicit("full"), implicit("normal_only_stress")}) {

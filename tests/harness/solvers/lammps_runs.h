@@ -28,6 +28,7 @@ struct StripScene {
   double step_fraction = 0.2;
   int steps = 400, sample_every = 20;
   std::string assembly = "packing = \"random\"\nlength = \"7 mm\"\nwidth = \"1.4 mm\"\ndiscs = 200\nseed = 3\n";
+  std::string new_contacts = "off";
   std::string discs = "0, 3, 11, 40, 77, 90, 123, 150, 171, 199";
 };
 std::string lagged(const std::string& correction, const std::string& more = "");
@@ -69,6 +70,9 @@ class LammpsFolder {
 Motion by_lammps(const PreparedRun& run, int ranks = 1, const Edit& edit = {});
 
 std::string newton_on(std::string script);
+
+/// Step and these columns of thermo_style, every ten steps; `before`: further commands, `edit`: of the script.
+std::vector<std::vector<double>> thermo(const PreparedRun& run, int ranks, const std::string& before, const std::string& columns, const Edit& edit = {});
 
 class OnLammps : public testing::Test {
  protected:
