@@ -1,12 +1,8 @@
 // pair_style ddem: discs that are not bonded and touch move as the built-in solver says, and what users of LAMMPS rely on.
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <ostream>
-#include <random>
 
-#include "dem/assembly/contacts.h"
 #include "harness/solvers/lammps_ddem.h"
 #include "harness/solvers/ready.h"
 #include "tests/harness/solvers/lammps_runs.h"
@@ -15,36 +11,6 @@ namespace ddem::harness::test {
 namespace {
 
 using testing::HasSubstr;
-
-StripScene touching(const std::string& deformation = "", const std::string& contact = "", const char* edges = "free") {
-  StripScene s;
-  s.new_contacts = "auto";
-  s.deformation = deformation, s.contact += contact, s.edges = edges;
-  return s;
-}
-
-/// Every fourth bond is cut, so that there are pairs with a gap of nearly nothing all over the strip, and discs are shaken by
-/// velocities at random: contacts close and open everywhere.
-PreparedRun shaken(const StripScene& scene) {
-  PreparedRun run = prepared(scene);
-  Bonds& b = run.run.assembly.bonds;
-  std::vector<std::pair<int, int>> kept;
-  for (std::size_t c = 0; c < b.size(); ++c) {
-    if (c % 4 != 0) kept.emplace_back(b.i[c], b.j[c]);
-  }
-  b = bonds_between(run.run.assembly.packing, kept);
-  ddem::InitialState& s = run.input.initial;
-  std::mt19937 random(7);
-  const auto shake = [&](std::vector<double>& v, const std::vector<std::uint8_t>& held) {
-    v.resize(run.run.assembly.size());
-    for (std::size_t d = 0; d < v.size(); ++d) {
-      const double velocity = 40.0 * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);  // m/s
-      v[d] = held.empty() || held[d] == 0 ? velocity : 0.0;
-    }
-  };
-  shake(s.vx, run.input.held.x), shake(s.vy, run.input.held.y);
-  return run;
-}
 
 constexpr const char* kNonlinear = "kinematics = \"nonlinear\"\n";
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "harness/io/atomic_file.h"
 #include "harness/io/errors.h"
 #include "harness/solvers/lammps_ddem.h"
 #include "harness/solvers/ready.h"
@@ -218,6 +219,27 @@ TEST_F(OnLammps, TheStockProgramLoadsTheStyles) {
   GTEST_SKIP() << "no lmp on the PATH (Debian: lammps)";
 #endif
 }
+
+#ifdef DDEM_PLUGIN_HOST
+/// By LAMMPS' interface of plugins, to the same bits; a script that uses all three styles.
+TEST_F(OnLammps, APluginHostIsGivenTheStyles) {
+  const PreparedRun run = shaken(touching(lagged("full")));
+  const Motion ours = by_lammps(run);
+  const LammpsFolder folder(run);
+  write_file(folder.path() / "in.test", folder.read(kLammpsScript));
+  const SubprocessResult done = run_confined(DDEM_PLUGIN_HOST, {DDEM_PLUGIN, "-in", "in.test", "-log", "none"}, {folder.path(), {}, 60.0});
+  ASSERT_TRUE(done.succeeded()) << done.standard_output << done.standard_error;
+  for (const char* style : {"bond", "pair", "fix"}) EXPECT_THAT(done.standard_output, HasSubstr(std::string("registered: ") + style + " ddem, "));
+  EXPECT_EQ(folder.motion().u, ours.u);
+}
+
+TEST_F(OnLammps, APluginHostOfAnotherVersionIsGivenNothing) {
+  const TemporaryFolder folder("ddem-lammps-test");
+  const SubprocessResult done = run_confined("env", {"LD_PRELOAD=" DDEM_OTHER_VERSION, DDEM_PLUGIN_HOST, DDEM_PLUGIN, "-in", "/dev/null", "-log", "none"}, {folder.path(), {}, 60.0});
+  EXPECT_THAT(done.standard_error, testing::AllOf(HasSubstr("this is 20300101"), HasSubstr("build them anew")));
+  EXPECT_THAT(done.standard_output, testing::Not(HasSubstr("registered")));
+}
+#endif
 
 /// theory section 2: 2G of the lattice, variant F; a pulse of 10 diameters between samples of 1 % of the time that it takes.
 TEST_F(OnLammps, TheExampleMeasuresItsWave) {

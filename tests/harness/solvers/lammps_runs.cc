@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <sstream>
 
+#include "dem/assembly/contacts.h"
 #include "harness/io/atomic_file.h"
 #include "harness/model/assemble.h"
 #include "harness/scene/read_scene.h"
@@ -36,6 +38,34 @@ PreparedRun prepared(const StripScene& s) {
   const SceneResult scene = parse_scene(text, "scene.toml", ".", {Purpose::simulation});
   EXPECT_TRUE(scene) << to_string(scene.violations);
   return prepare_run(*scene, build_assembly(*scene));
+}
+
+StripScene touching(const std::string& deformation, const std::string& contact, const char* edges) {
+  StripScene s;
+  s.new_contacts = "auto";
+  s.deformation = deformation, s.contact += contact, s.edges = edges;
+  return s;
+}
+
+PreparedRun shaken(const StripScene& scene) {
+  PreparedRun run = prepared(scene);
+  Bonds& b = run.run.assembly.bonds;
+  std::vector<std::pair<int, int>> kept;
+  for (std::size_t c = 0; c < b.size(); ++c) {
+    if (c % 4 != 0) kept.emplace_back(b.i[c], b.j[c]);
+  }
+  b = bonds_between(run.run.assembly.packing, kept);
+  ddem::InitialState& s = run.input.initial;
+  std::mt19937 random(7);
+  const auto shake = [&](std::vector<double>& v, const std::vector<std::uint8_t>& held) {
+    v.resize(run.run.assembly.size());
+    for (std::size_t d = 0; d < v.size(); ++d) {
+      const double velocity = 40.0 * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);  // m/s
+      v[d] = held.empty() || held[d] == 0 ? velocity : 0.0;
+    }
+  };
+  shake(s.vx, run.input.held.x), shake(s.vy, run.input.held.y);
+  return run;
 }
 
 double difference(const std::vector<double>& a, const std::vector<double>& b) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,6 +39,12 @@ inline constexpr const char* kShearDrive = "[drive]\nwave = \"shear\"\nduration 
 
 PreparedRun prepared(const StripScene& scene);
 
+/// With new contacts.
+StripScene touching(const std::string& deformation = "", const std::string& contact = "", const char* edges = "free");
+/// Every fourth bond is cut, so that there are pairs with a gap of nearly nothing all over the strip, and discs are shaken by
+/// velocities at random: contacts close and open everywhere.
+PreparedRun shaken(const StripScene& scene);
+
 /// ux, uy, theta of a scene's discs over time.
 struct Motion {
   std::vector<double> u, theta;
@@ -60,6 +67,7 @@ class LammpsFolder {
   /// What the last run left.
   Motion motion() const;
   std::string read(const std::string& name) const;
+  const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
   const PreparedRun& run_;
