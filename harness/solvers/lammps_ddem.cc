@@ -28,6 +28,7 @@ constexpr std::array<std::pair<Role, const char*>, 5> kGroups{
     {{held_x, "held_x"}, {held_y, "held_y"}, {held_theta, "held_theta"}, {driven, "driven"}, {recorded, "recorded"}}};
 
 constexpr const char* kMark = "ddem export --format lammps: ";  // at the beginning of every file (harness/io/output_kind.cc)
+constexpr std::size_t kPiece = 1 << 16;  // bytes
 constexpr double kRoom = 8.0;  // radii between discs and the walls of a box that is not periodic
 
 double at(const std::vector<double>& values, std::size_t d) { return values.empty() ? 0.0 : values[d]; }
@@ -53,7 +54,9 @@ class Input {
     for (auto& [role, type] : type_) type = ++number;
   }
 
-  std::string data() const {
+  /// In pieces: at 1e6 discs the whole is a quarter of a gigabyte.
+  void write_data(const fs::path& path) const {
+    AtomicFile file(path);
     const ddem::Assembly& a = e_.assembly;
     const Packing& p = a.packing;
     const ddem::InitialState& s = e_.input.initial;
@@ -62,13 +65,19 @@ class Input {
           a.size(), a.bonds.size(), type_.size());
     write(text, "{} xlo xhi\n{} ylo yhi\n{} {} zlo zhi\n\nAtoms # hybrid\n\n", limits(p.x, p.period.x), limits(p.y, p.period.y),
           -largest_, largest_);
-    for (std::size_t d = 0; d < a.size(); ++d)
-      write(text, "{} {} {} {} 0 {} {} 1\n", d + 1, type_.at(role_[d]), p.x[d], p.y[d], 2.0 * p.radius[d], a.density);
-    write(text, "\nVelocities\n\n");
-    for (std::size_t d = 0; d < a.size(); ++d) write(text, "{} {} {} 0 0 0 {}\n", d + 1, at(s.vx, d), at(s.vy, d), at(s.omega, d));
-    if (a.bonds.size() > 0) write(text, "\nBonds\n\n");
-    for (std::size_t b = 0; b < a.bonds.size(); ++b) write(text, "{} 1 {} {}\n", b + 1, a.bonds.i[b] + 1, a.bonds.j[b] + 1);
-    return {text.data(), text.size()};
+    const auto line = [&]<class... Args>(fmt::format_string<Args...> format, Args&&... args) {
+      write(text, format, std::forward<Args>(args)...);
+      if (text.size() < kPiece) return;
+      file.append({text.data(), text.size()});
+      text.clear();
+    };
+    for (std::size_t d = 0; d < a.size(); ++d) line("{} {} {} {} 0 {} {} 1\n", d + 1, type_.at(role_[d]), p.x[d], p.y[d], 2.0 * p.radius[d], a.density);
+    line("\nVelocities\n\n");
+    for (std::size_t d = 0; d < a.size(); ++d) line("{} {} {} 0 0 0 {}\n", d + 1, at(s.vx, d), at(s.vy, d), at(s.omega, d));
+    if (a.bonds.size() > 0) line("\nBonds\n\n");
+    for (std::size_t b = 0; b < a.bonds.size(); ++b) line("{} 1 {} {}\n", b + 1, a.bonds.i[b] + 1, a.bonds.j[b] + 1);
+    file.append({text.data(), text.size()});
+    file.commit();
   }
 
   /// Of discs that are displaced at first; empty where none is.
@@ -229,7 +238,7 @@ void write_lammps_ddem(const fs::path& folder, const Exchange& e) {
     if (text.empty()) fs::remove(folder / kLammpsInitial[c]);  // of another scene
     else write_file(folder / kLammpsInitial[c], text);
   }
-  write_file(folder / kLammpsData, input.data());
+  input.write_data(folder / kLammpsData);
   write_file(folder / kLammpsScript, input.commands());
 }
 

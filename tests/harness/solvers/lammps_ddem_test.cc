@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "harness/io/atomic_file.h"
+#include "harness/io/digest.h"
 #include "harness/io/errors.h"
 #include "harness/solvers/lammps_ddem.h"
 #include "harness/solvers/ready.h"
@@ -261,6 +262,19 @@ TEST_F(OnLammps, TheExampleMeasuresItsWave) {
   const double shear = a * (1.0 + ratio) / 4.0, twice_g = shear / (1.0 + shear / (fraction * disc));
   const double speed = std::sqrt(0.5 * twice_g / (density * fraction));
   EXPECT_NEAR(50.0 * 2e-4 / (far_time - near_time) * 1e6, speed, 0.015 * speed);
+}
+
+/// Digests of the files as they were while their text was made in one piece: 8000 discs are many pieces.
+TEST(LammpsDdem, FilesAreThoseOfBefore) {
+  StripScene scene;
+  scene.assembly = "packing = \"hexagonal\"\ncolumns = 200\nrows = 40\nradius = \"0.1 mm\"\nclose_packed_along = \"x\"\n";
+  scene.deformation = lagged("full"), scene.edges = "periodic", scene.thickness = "1.5", scene.load = kShearDrive, scene.discs = "0, 399, 4711";
+  PreparedRun run = prepared(scene);
+  run.input.time_step = 1e-8;
+  const TemporaryFolder folder("ddem-lammps-test");
+  write_lammps_ddem(folder.path(), {run.run.assembly, run.input, {}, ""});
+  EXPECT_EQ(sha256_of_file(folder.path() / kLammpsData), "0f9d0069129da062a0a76128b52dbb135075b7d70d28a3d633b990875aa0bc11");
+  EXPECT_EQ(sha256_of_file(folder.path() / kLammpsScript), "9f1641b43d04268dd50259e182e02d6d7dca36e260a1b04c7297849354b639fd");
 }
 
 TEST(LammpsDdem, RefusesWhatItCannotDo) {
