@@ -130,6 +130,7 @@ class FixDdem : public LAMMPS_NS::Fix {
   BondRows contacts_;
   std::vector<double> watched_from_;                  // displacements when the list was made, x and y a disc, of ghosts as well
   double narrowest_ = 0.0, longest_arm_ = 1.0;        // gap of rigid discs then; arm over radius
+  double smallest_radius_ = 0.0;
   struct OfDisc {
     double kick_x, kick_y, kick_theta;  ///< half a step over mass, inertia
     double over_volume;                 ///< 1/V

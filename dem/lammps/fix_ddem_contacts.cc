@@ -70,12 +70,13 @@ void FixDdem::set_contact(std::size_t at, int i, int j) {
   contacts_.start_gap[at] = length - std::min(r_i + r_j, length);
 }
 
-/// The displacements now, the narrowest gap of rigid discs, and the longest arm over its radius.
+/// The displacements now, the narrowest gap of rigid discs, the smallest radius, and the longest arm over its radius.
 void FixDdem::begin_watch() {
   const std::size_t discs = static_cast<std::size_t>(atom->nlocal) + static_cast<std::size_t>(atom->nghost);
   watched_from_.resize(2 * discs);
   for (std::size_t i = 0; i < discs; ++i) std::copy_n(disc_[i], 2, watched_from_.data() + 2 * i);
   narrowest_ = HUGE_VAL, longest_arm_ = 1.0;
+  smallest_radius_ = discs == 0 ? 0.0 : *std::min_element(atom->radius, atom->radius + discs);
   LoopLaw rigid = contact_law_;
   rigid.strained = false;
   const double grows = nonlinear() ? pair_->reach() + neighbor->skin : 0.0;  // at most, while the list is good
@@ -88,26 +89,30 @@ void FixDdem::begin_watch() {
   }
 }
 
-/// Whether a pair may have closed. n.(a eps).n is at most the arm times the norm of eps.
+/// Whether a pair may have closed. n.(a eps).n is at most the arm times the norm of eps. A pair in no list was further apart than
+/// r_i + r_j and what is known, and is nearer by what both have moved since. In linear kinematics its gap is that along n of the
+/// reference, which sees nothing of what one has moved past the other, at most the displacements of both: the hypotenuse.
 bool FixDdem::may_touch() const {
   const int discs = atom->nlocal + atom->nghost, columns = size_peratom_cols;
   const double *row = discs == 0 ? nullptr : disc_[0], *from = watched_from_.data();
-  double moved = 0.0, strained_by = 0.0;  // squares
+  double moved = 0.0, displaced = 0.0, strained_by = 0.0;  // squares
   const auto raise = [](double& most, double value) {
     if (!(value <= most)) most = value;  // what is no number stays
   };
   for (int i = 0; i < discs; ++i, row += columns, from += 2) {
     const double dx = row[kUx] - from[0], dy = row[kUy] - from[1];
     raise(moved, dx * dx + dy * dy);
+    raise(displaced, row[kUx] * row[kUx] + row[kUy] * row[kUy]);
     if (!strained()) continue;
     const double *e = row + kStrain, r = atom->radius[i];
     raise(strained_by, r * r * (e[0] * e[0] + e[1] * e[1] + 2.0 * e[2] * e[2]));
   }
-  const double closed_by = 2.0 * (std::sqrt(moved) + longest_arm_ * std::sqrt(strained_by));
-  if (closed_by > pair_->reach() + neighbor->skin)
+  const double nearer = 2.0 * std::sqrt(moved), grown = 2.0 * longest_arm_ * std::sqrt(strained_by);
+  const double aside = nonlinear() ? 0.0 : 2.0 * std::sqrt(displaced), touching = 2.0 * smallest_radius_;
+  if (std::hypot(touching + grown, aside) > touching + pair_->reach() + neighbor->skin - nearer)
     error->one(FLERR, "pair_style ddem: discs that are in no list of neighbours may touch: renew the lists more often (neigh_modify delay 0 every 1 "
-                      "check yes), or let the skin be wider or, where strains are large, the reach"s);
-  return !(closed_by < narrowest_);
+                      "check yes), or let the skin be wider or, where strains or displacements are large, the reach"s);
+  return !(nearer + grown < narrowest_);
 }
 
 Discs FixDdem::discs_of_contacts() { return discs_shared(force->newton_pair != 0); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -133,8 +134,14 @@ class Input {
     return fmt::format("{} {}", least - kRoom * largest_, most + kRoom * largest_);
   }
 
-  /// Discs that are not bonded and may touch; strains up to a tenth move boundaries by so much.
-  std::string pair_style() const { return touching_ ? fmt::format("pair_style ddem {}", 0.2 * largest_) : "pair_style none"; }
+  /// Discs that are not bonded and may touch. Strains up to a tenth move boundaries by a fifth of a radius; and in linear kinematics
+  /// discs that pass each other are further apart than along the normal of the reference. Displacements of a radius are its end.
+  std::string pair_style() const {
+    if (!touching_) return "pair_style none";
+    const double touching = 2.0 * std::ranges::min(e_.assembly.packing.radius), displacement = std::min(2.0 * displacement_put_in(e_.input), largest_);
+    const double aside = e_.input.contact.kinematics == Kinematics::linear ? std::hypot(touching, 2.0 * displacement) - touching : 0.0;
+    return fmt::format("pair_style ddem {}", 0.2 * largest_ + aside);
+  }
 
   std::string stiffness() const {
     const ContactParameters& c = e_.input.contact;

@@ -81,7 +81,7 @@ void expect_as_builtin(const PreparedRun& run, double displacements) {
 TEST_F(OnLammps, MotionClosesAGap) {
   StripScene scene = touching("", "", "periodic");
   scene.assembly += "coordination = 4.4\n";
-  scene.load = "[initial]\nwave = \"longitudinal\"\nshape = \"column\"\namplitude = \"60 um\"\n";
+  scene.load = "[initial]\nwave = \"longitudinal\"\nshape = \"column\"\namplitude = \"100 um\"\n";
   expect_as_builtin(prepared(scene), 1e-13);
 }
 
