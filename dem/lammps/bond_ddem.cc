@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "dem/lammps/fix_ddem.h"
+#include "dem/lammps/tally.h"
 
 namespace ddem::lammps {
 
@@ -76,34 +77,9 @@ bool BondDdem::uniform() const {
 void BondDdem::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   fix_->add_bond_forces(*atom->f, *atom->torque);
-  if (evflag != 0) tally();
-}
-
-/// Where both ranks have a bond (newton off), each counts half of it.
-void BondDdem::tally() {
-  const BondRows& rows = fix_->rows();
-  const Discs discs = fix_->discs();
-  for (int i = 0; i < rows.discs(); ++i) {
-    for (int b = rows.first[static_cast<std::size_t>(i)]; b < rows.first[static_cast<std::size_t>(i) + 1]; ++b) {
-      const int j = rows.bond[static_cast<std::size_t>(b)].j;
-      const BondState s = state_of(fix_->law(), rows, discs, i, b);
-      const bool whole = force->newton_bond != 0 || j < atom->nlocal;
-      if (eflag_global != 0) energy += whole ? s.energy : 0.5 * s.energy;
-      if (eflag_atom != 0) {
-        eatom[i] += 0.5 * s.energy;
-        if (whole) eatom[j] += 0.5 * s.energy;
-      }
-      // The centres' distance is the sum of the arms; -F acts on j.
-      const double length = s.overlap.arm_i + s.overlap.arm_j;
-      if (vflag_global != 0) tally_virial(whole ? 1.0 : 0.5, -length * s.overlap.nx, -length * s.overlap.ny, s.force.x, s.force.y);
-    }
-  }
-}
-
-void BondDdem::tally_virial(double share, double dx, double dy, double fx, double fy) {
-  virial[0] += share * dx * fx;
-  virial[1] += share * dy * fy;
-  virial[3] += share * 0.5 * (dx * fy + dy * fx);
+  if (evflag == 0) return;
+  tally(fix_->law(), fix_->rows(), fix_->discs(),
+        {eflag_global != 0 ? &energy : nullptr, vflag_global != 0 ? virial : nullptr, eflag_atom != 0 ? eatom : nullptr, vflag_atom != 0 ? vatom : nullptr});
 }
 
 /// The longest bond is not known before bonds are found; discs that touch are two radii apart.
@@ -116,18 +92,11 @@ double BondDdem::equilibrium_distance(int) {
 }
 
 double BondDdem::single(int, double, int i, int j, double& normal_force) {
-  const BondRows& rows = fix_->rows();
-  for (const auto& [from, to] : {std::pair{i, j}, std::pair{j, i}}) {
-    if (from >= rows.discs()) continue;
-    for (int b = rows.first[static_cast<std::size_t>(from)]; b < rows.first[static_cast<std::size_t>(from) + 1]; ++b) {
-      if (atom->tag[rows.bond[static_cast<std::size_t>(b)].j] != atom->tag[to]) continue;
-      const BondState s = state_of(fix_->law(), rows, fix_->discs(), from, b);
-      normal_force = -s.force.normal / (s.overlap.arm_i + s.overlap.arm_j);  // as LAMMPS has it: over the distance, repulsion positive
-      return s.energy;
-    }
-  }
-  normal_force = 0.0;
-  return 0.0;
+  const auto same = [this](int a, int b) { return atom->tag[a] == atom->tag[b]; };
+  const auto s = find_state(fix_->law(), fix_->rows(), fix_->discs(), i, j, same);
+  // As LAMMPS has it: over the distance, repulsion positive.
+  normal_force = s ? -s->force.normal / (s->overlap.arm_i + s->overlap.arm_j) : 0.0;
+  return s ? s->energy : 0.0;
 }
 
 /// LAMMPS leaves the settings to the style.

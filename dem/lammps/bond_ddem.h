@@ -44,8 +44,6 @@ class BondDdem : public LAMMPS_NS::Bond {
   };
 
   void allocate();
-  void tally();
-  void tally_virial(double share, double dx, double dy, double fx, double fy);
 
   Kinematics kinematics_ = Kinematics::linear;
   std::vector<Coefficient> of_type_;  // from 1

@@ -8,12 +8,14 @@ namespace ddem::lammps::DDEM_ISA {
 namespace {
 
 /// What a sweep does: policies that cost nothing where they are off.
-template <Kinematics kKinematics, bool kCorrect, bool kSum, Correction kCorrection, bool kForce>
+template <Pairs kPairs, Kinematics kKinematics, bool kCorrect, bool kSum, Correction kCorrection, bool kForce>
 struct Sweep {
   static Overlap overlap(const RowsView& rows, const Discs& discs, int b, int i, const double* disc_i, const double* disc_j) {
     const BondGeometry& g = rows.bond[b];
     if constexpr (kKinematics == Kinematics::linear) {
       return linear_overlap(g, disc_i, disc_j);
+    } else if constexpr (kPairs == Pairs::contacts) {
+      return nonlinear_overlap(g, disc_i, disc_j, placed(g, disc_i, disc_j), 0.0);
     } else {
       const auto row = [&](int d) { return discs.previous + 3 * static_cast<std::size_t>(d); };
       const Placement now = placed(g, disc_i, disc_j);
@@ -47,6 +49,10 @@ struct Sweep {
         double* disc_j = row + j * columns;
         Overlap o = overlap(rows, discs, b, i, own, disc_j);
         if constexpr (kCorrect) correct<kCorrection>(o, own, disc_j);
+        if constexpr (kPairs == Pairs::contacts) {
+          o.u_n += rows.start_gap[b], o.u_t = 0.0;
+          if (!(o.u_n < 0.0)) continue;
+        }
         const BondForce f = force_of(o, k_n[static_cast<std::size_t>(b) * stride], k_t[static_cast<std::size_t>(b) * stride]);
         const bool both = static_cast<int>(j) < writable;
         if constexpr (kForce) {
@@ -72,10 +78,16 @@ struct Sweep {
 };
 
 /// From the values of a run to the types of a loop.
-template <class Visit>
+template <Pairs kPairs, class Visit>
 void with_kinematics(Kinematics kinematics, Visit&& visit) {
-  if (kinematics == Kinematics::linear) visit.template operator()<Kinematics::linear>();
-  else visit.template operator()<Kinematics::nonlinear>();
+  if (kinematics == Kinematics::linear) visit.template operator()<kPairs, Kinematics::linear>();
+  else visit.template operator()<kPairs, Kinematics::nonlinear>();
+}
+
+template <class Visit>
+void with_pairs(const LoopLaw& law, Visit&& visit) {
+  if (law.pairs == Pairs::bonds) with_kinematics<Pairs::bonds>(law.kinematics, visit);
+  else with_kinematics<Pairs::contacts>(law.kinematics, visit);
 }
 
 template <class Visit>
@@ -90,17 +102,17 @@ void with_correction(Correction correction, Visit&& visit) {
 }  // namespace
 
 void add_forces(const LoopLaw& law, const RowsView& rows, const Discs& discs, const Loads& loads) {
-  with_kinematics(law.kinematics, [&]<Kinematics k>() {
-    if (!law.strained) return Sweep<k, false, false, Correction::normal, true>::run(rows, discs, loads);
-    with_correction(law.correction, [&]<Correction c>() { Sweep<k, true, true, c, true>::run(rows, discs, loads); });
+  with_pairs(law, [&]<Pairs p, Kinematics k>() {
+    if (!law.strained) return Sweep<p, k, false, false, Correction::normal, true>::run(rows, discs, loads);
+    with_correction(law.correction, [&]<Correction c>() { Sweep<p, k, true, true, c, true>::run(rows, discs, loads); });
   });
 }
 
 void add_stresses(const LoopLaw& law, bool from_rest, const RowsView& rows, const Discs& discs) {
-  with_kinematics(law.kinematics, [&]<Kinematics k>() {
+  with_pairs(law, [&]<Pairs p, Kinematics k>() {
     with_correction(law.correction, [&]<Correction c>() {
-      if (from_rest) Sweep<k, false, true, c, false>::run(rows, discs, {});
-      else Sweep<k, true, true, c, false>::run(rows, discs, {});
+      if (from_rest) Sweep<p, k, false, true, c, false>::run(rows, discs, {});
+      else Sweep<p, k, true, true, c, false>::run(rows, discs, {});
     });
   });
 }

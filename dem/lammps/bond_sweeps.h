@@ -1,5 +1,5 @@
 #pragma once
-// The one loop over the bonds of a rank, compiled once for each instruction set (bond_sweeps.cc, CMakeLists.txt) and chosen at
+// The one loop over the bonds of a rank, and over its contacts without bonds, compiled once for each instruction set (bond_sweeps.cc, CMakeLists.txt) and chosen at
 // run time (bond_loop.cc). No vectors here: an inline function of theirs, compiled for one set, could be called on a machine
 // that lacks it.
 
@@ -16,7 +16,8 @@ struct RowsView {
   const BondGeometry* bond = nullptr;
   const double *k_n = nullptr, *k_t = nullptr;  ///< stride numbers apart; 0: the same for all
   int stride = 0;
-  double* slip = nullptr;  ///< nonlinear kinematics alone
+  double* slip = nullptr;             ///< bonds in nonlinear kinematics alone
+  const double* start_gap = nullptr;  ///< contacts alone: gap of the reference, m
 };
 
 /// Rows of all discs of the rank and of its ghosts.
@@ -33,7 +34,14 @@ struct Loads {
   double* torque = nullptr;
 };
 
+/// What the rows are.
+enum class Pairs {
+  bonds,
+  contacts  ///< discs that are not bonded: gap = start_gap + u_n; they press where it is negative, and never pull or rub
+};
+
 struct LoopLaw {
+  Pairs pairs = Pairs::bonds;
   Kinematics kinematics = Kinematics::linear;
   bool strained = false;
   Correction correction = Correction::normal;

@@ -15,6 +15,7 @@
 #include <cstring>
 
 #include "dem/lammps/bond_ddem.h"
+#include "dem/lammps/pair_ddem.h"
 
 namespace ddem::lammps {
 
@@ -38,7 +39,8 @@ FixDdem::FixDdem(LAMMPS_NS::LAMMPS* l, int count, char** words) : Fix(l, count, 
   bonds_ = dynamic_cast<BondDdem*>(force->bond);
   if (bonds_ == nullptr) error->all(FLERR, "fix ddem: give bond_style ddem before it"s);
   const DeformationParameters& d = options_.deformation;
-  law_ = {bonds_->kinematics(), d.active(), d.correction};
+  law_ = {Pairs::bonds, bonds_->kinematics(), d.active(), d.correction};
+  contact_law_ = {Pairs::contacts, law_.kinematics, law_.strained, law_.correction};
   const bool asks_to_move = options_.drive.on || options_.held != std::array<int, 3>{};
   if (!options_.integrate && asks_to_move) error->all(FLERR, "fix ddem: what somebody else integrates it can neither hold nor drive"s);
   if (nonlinear() && d.scheme == Scheme::implicit) error->all(FLERR, "fix ddem: implicit strains need linear kinematics, of which their weights are found"s);
@@ -96,6 +98,9 @@ void FixDdem::init() {
   if (update->whichflag == 2) error->all(FLERR, "fix ddem: energy is not minimised: use a run"s);
   if (std::strstr(update->integrate_style, "respa") != nullptr) error->all(FLERR, "fix ddem: run_style respa is not possible"s);
   if (force->bond != bonds_) error->all(FLERR, "fix ddem: bond_style was given again; give it, then the fix"s);
+  pair_ = PairDdem::of(lmp);
+  if (pair_ != nullptr && options_.deformation.scheme == Scheme::implicit)
+    error->all(FLERR, "fix ddem: implicit strains know of bonds only: pair_style ddem goes with lagged ones and with rigid discs"s);
   reset_dt();
 }
 
@@ -105,15 +110,16 @@ void FixDdem::reset_dt() {
   if (of_disc_.size() == static_cast<std::size_t>(atom->nlocal)) prepare_discs();
 }
 
-Discs FixDdem::discs() {
-  // Newton on: what ghosts are given goes to their owner. Off: the other rank sums it itself.
-  const int writable = force->newton_bond != 0 ? atom->nlocal + atom->nghost : atom->nlocal;
+Discs FixDdem::discs() { return discs_shared(force->newton_bond != 0); }
+
+/// Newton on: what ghosts are given goes to their owner. Off: the other rank sums it itself.
+Discs FixDdem::discs_shared(bool newton) {
+  const int writable = newton ? atom->nlocal + atom->nghost : atom->nlocal;
   const int columns = size_peratom_cols;
   return {disc_ == nullptr ? nullptr : disc_[0], columns, previous_ == nullptr ? nullptr : previous_[0], writable};
 }
 
 void FixDdem::setup_pre_exchange() {
-  keep_slip();
   if (displaced_) return;
   for (int i = 0; i < atom->nlocal; ++i) {
     for (int c = kUx; c <= kUy; ++c) atom->x[i][c] += disc_[i][c];
@@ -122,32 +128,42 @@ void FixDdem::setup_pre_exchange() {
 }
 
 void FixDdem::pre_exchange() { keep_slip(); }
+
+/// Commands between runs may renumber discs and ghosts, as write_restart does.
+void FixDdem::post_run() {
+  keep_slip();
+  rows_hold_ = false;
+}
+
 void FixDdem::setup_post_neighbor() { post_neighbor(); }
 
 void FixDdem::post_neighbor() {
   build_rows();
+  build_contacts();
   prepare_discs();
 }
 
 /// The first forces of all: with the passes of several evaluations, and slip since the reference. Later ones, at the setup of
 /// a further run, are those of the step before, again.
 void FixDdem::setup_pre_force(int) {
+  rows_hold_ = true;
   if (!begun_ && options_.drive.on) impose_drive(update->ntimestep);
   if (nonlinear() && begun_) remember_motion();
   if (strained()) clear_stress(0, atom->nlocal);
   send(Sent::all);
   const bool again = begun_ && options_.deformation.scheme == Scheme::lagged;
   if (strained() && !again) strain_passes();
+  clear_ghosts();
   begun_ = true;
 }
 
 void FixDdem::pre_force(int) {
   send(options_.deformation.scheme == Scheme::lagged ? Sent::all : Sent::motion);
   if (strained()) strain_passes();
+  clear_ghosts();
 }
 
 void FixDdem::add_bond_forces(double* force_of_all, double* torque_of_all) {
-  if (strained()) clear_stress(atom->nlocal, atom->nlocal + atom->nghost);
   add_forces(law_, rows_, discs(), {force_of_all, torque_of_all});
 }
 
@@ -168,7 +184,10 @@ double FixDdem::compute_vector(int n) {
 
 double FixDdem::memory_usage() {
   const double numbers = size_peratom_cols + 2 + (nonlinear() ? 3 + atom->bond_per_atom : 0);
-  return 8.0 * numbers * atom->nmax + static_cast<double>(sizeof(BondGeometry) * rows_.bond.capacity() + 8 * rows_.slip.capacity());
+  const auto of_rows = [](const BondRows& r) {
+    return sizeof(BondGeometry) * r.bond.capacity() + sizeof(double) * (r.k_n.capacity() + r.k_t.capacity() + r.slip.capacity() + r.start_gap.capacity());
+  };
+  return 8.0 * numbers * atom->nmax + static_cast<double>(of_rows(rows_) + of_rows(contacts_) + sizeof(double) * watched_from_.capacity());
 }
 
 }  // namespace ddem::lammps

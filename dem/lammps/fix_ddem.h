@@ -4,7 +4,7 @@
 // A step, with x, v, omega, f and torque where LAMMPS keeps them:
 //   initial_integrate   v(n+1/2) = v(n) + dt/2 F(n)/m,  u(n+1) = u(n) + dt v(n+1/2); lagged strains take what F(n) left
 //   pre_force           u, theta, eps to ghosts; the passes of implicit strains
-//   bond_style ddem     F(n+1), and the sums s (x) F of every disc
+//   pair_style ddem, bond_style ddem   F(n+1), and the sums s (x) F of every disc
 //   final_integrate     v(n+1) = v(n+1/2) + dt/2 F(n+1)/m
 // That is leapfrog, with velocities at whole steps between them. Forces at the setup of a run leave strains and slip as they
 // are, so that a run in pieces is one run.
@@ -21,6 +21,7 @@
 namespace ddem::lammps {
 
 class BondDdem;
+class PairDdem;
 
 class FixDdem : public LAMMPS_NS::Fix {
  public:
@@ -29,11 +30,15 @@ class FixDdem : public LAMMPS_NS::Fix {
   /// The one that there is, or none.
   static FixDdem* of(LAMMPS_NS::LAMMPS* l);
 
-  // For bond_style ddem.
+  // For bond_style ddem and pair_style ddem.
   const BondRows& rows() const { return rows_; }
   const LoopLaw& law() const { return law_; }
   Discs discs();
   void add_bond_forces(double* force_of_all, double* torque_of_all);
+  const BondRows& contacts() const { return contacts_; }
+  const LoopLaw& contact_law() const { return contact_law_; }
+  Discs discs_of_contacts();
+  void add_contact_forces(double* force_of_all, double* torque_of_all);
 
   // What LAMMPS calls.
   int setmask() override;
@@ -49,6 +54,7 @@ class FixDdem : public LAMMPS_NS::Fix {
   void post_force(int vflag) override;
   void final_integrate() override;
   void reset_dt() override;
+  void post_run() override;
 
   double compute_scalar() override;
   double compute_vector(int n) override;
@@ -85,6 +91,14 @@ class FixDdem : public LAMMPS_NS::Fix {
   void set_row(int b, int i, int j, int type);
   void keep_slip();
   int slot_of(int i, LAMMPS_NS::tagint other) const;
+  // Discs that are not bonded, fix_ddem_contacts.cc.
+  bool bonded(int i, int j) const;
+  void build_contacts();
+  void set_contact(std::size_t at, int i, int j);
+  void begin_watch();
+  bool may_touch() const;
+  void add_contact_stresses();
+  Discs discs_shared(bool newton);
 
   void send(Sent what);
   int values_sent() const;
@@ -97,6 +111,7 @@ class FixDdem : public LAMMPS_NS::Fix {
   void follow();
 
   void clear_stress(int from, int to);
+  void clear_ghosts();
   void collect_stress();
   void advance_strains(double weight);
   void strain_passes();
@@ -108,6 +123,14 @@ class FixDdem : public LAMMPS_NS::Fix {
   LoopLaw law_;
   Compliance compliance_;
   BondRows rows_;
+  bool rows_hold_ = false;  ///< their indices are those of LAMMPS' arrays now
+  // Where there is a pair_style ddem.
+  PairDdem* pair_ = nullptr;
+  LoopLaw contact_law_;
+  BondRows contacts_;
+  std::vector<double> watched_from_;                  // displacements when the list was made, x and y a disc, of ghosts as well
+  double narrowest_ = 0.0, longest_arm_ = 1.0;        // gap of rigid discs then; arm over radius
+  double smallest_radius_ = 0.0;
   struct OfDisc {
     double kick_x, kick_y, kick_theta;  ///< half a step over mass, inertia
     double over_volume;                 ///< 1/V

@@ -66,7 +66,7 @@ int FixDdem::pack_exchange(int i, double* to) { return pack(i, to); }
 int FixDdem::unpack_exchange(int i, double* from) { return unpack(i, from); }
 
 void FixDdem::write_restart(std::FILE* file) {
-  keep_slip();  // all ranks come here before they pack their discs
+  keep_slip();  // within a run; all ranks come here before they pack their discs
   if (comm->me != 0) return;
   const int size = sizeof(double);
   const double begun = begun_ ? 1.0 : 0.0;

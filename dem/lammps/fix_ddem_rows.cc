@@ -64,7 +64,7 @@ int FixDdem::slot_of(int i, LAMMPS_NS::tagint other) const {
 /// Slip, which reads the same from either end, goes to the discs before they move to other ranks. With newton off both ends
 /// keep a bond, and either may be its first disc afterwards.
 void FixDdem::keep_slip() {
-  if (!nonlinear() || rows_.discs() != atom->nlocal) return;
+  if (!nonlinear() || !rows_hold_) return;
   for (int i = 0; i < rows_.discs(); ++i) {
     for (int b = rows_.first[static_cast<std::size_t>(i)]; b < rows_.first[static_cast<std::size_t>(i) + 1]; ++b) {
       const int j = rows_.bond[static_cast<std::size_t>(b)].j;

@@ -15,8 +15,14 @@ void FixDdem::clear_stress(int from, int to) {
   for (int i = from; i < to; ++i) std::fill_n(disc_[i] + kStress, 3, 0.0);
 }
 
+/// Ghosts' sums start anew: those of pairs and then of bonds.
+void FixDdem::clear_ghosts() {
+  if (strained()) clear_stress(atom->nlocal, atom->nlocal + atom->nghost);
+}
+
 void FixDdem::collect_stress() {
-  if (strained() && force->newton_bond != 0) from_ghosts(comm, this, kAllColumns - kStress);
+  const bool given_to_ghosts = force->newton_bond != 0 || (pair_ != nullptr && force->newton_pair != 0);
+  if (strained() && given_to_ghosts) from_ghosts(comm, this, kAllColumns - kStress);
 }
 
 /// eps <- (1 - w) eps + w D : sigma; the sums start anew.
@@ -46,7 +52,8 @@ void FixDdem::strain_passes() {
     for (int i = 0; i < atom->nlocal; ++i) std::fill_n(disc_[i] + kStrain, 6, 0.0);
   }
   for (int k = 0; k < passes; ++k) {
-    clear_stress(atom->nlocal, atom->nlocal + atom->nghost);
+    clear_ghosts();
+    add_contact_stresses();
     add_stresses(law_, implicit && k == 0, rows_, discs());
     collect_stress();
     advance_strains(implicit ? options_.weights[static_cast<std::size_t>(k)] : options_.deformation.relaxation);

@@ -1,4 +1,4 @@
-// ddem-lammps: LAMMPS with bond_style ddem and fix ddem, and the command line of lmp.
+// ddem-lammps: LAMMPS with bond_style ddem, pair_style ddem and fix ddem, and the command line of lmp.
 #define LAMMPS_LIB_MPI  // lammps_open() with a communicator
 #include <lammps/input.h>
 #include <lammps/lammps.h>

@@ -6,15 +6,21 @@
 
 #include "dem/lammps/bond_ddem.h"
 #include "dem/lammps/fix_ddem.h"
+#include "dem/lammps/pair_ddem.h"
 
 namespace ddem::lammps {
 
 int compiled_version() { return DDEM_LAMMPS_VERSION; }
 int running_version(LAMMPS_NS::LAMMPS* lmp) { return lammps_version(lmp); }
 
+LAMMPS_NS::Pair* make_pair(LAMMPS_NS::LAMMPS* lmp) { return new PairDdem(lmp); }
+LAMMPS_NS::Bond* make_bond(LAMMPS_NS::LAMMPS* lmp) { return new BondDdem(lmp); }
+LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int count, char** words) { return new FixDdem(lmp, count, words); }
+
 void add_styles(LAMMPS_NS::LAMMPS* lmp) {
-  (*lmp->force->bond_map)["ddem"] = [](LAMMPS_NS::LAMMPS* l) -> LAMMPS_NS::Bond* { return new BondDdem(l); };
-  (*lmp->modify->fix_map)["ddem"] = [](LAMMPS_NS::LAMMPS* l, int count, char** words) -> LAMMPS_NS::Fix* { return new FixDdem(l, count, words); };
+  (*lmp->force->pair_map)["ddem"] = make_pair;
+  (*lmp->force->bond_map)["ddem"] = make_bond;
+  (*lmp->modify->fix_map)["ddem"] = make_fix;
 }
 
 }  // namespace ddem::lammps

@@ -1,8 +1,11 @@
 #pragma once
-// bond_style ddem and fix ddem, made known to a LAMMPS that runs.
+// bond_style ddem, pair_style ddem and fix ddem, made known to a LAMMPS that runs.
 
 namespace LAMMPS_NS {
 class LAMMPS;
+class Pair;
+class Bond;
+class Fix;
 }
 
 namespace ddem::lammps {
@@ -11,6 +14,10 @@ namespace ddem::lammps {
 int compiled_version();
 /// Of the library that runs.
 int running_version(LAMMPS_NS::LAMMPS* lmp);
+
+LAMMPS_NS::Pair* make_pair(LAMMPS_NS::LAMMPS* lmp);
+LAMMPS_NS::Bond* make_bond(LAMMPS_NS::LAMMPS* lmp);
+LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int count, char** words);
 
 /// After `clear`, which forgets them, again. The versions must agree: the layouts of classes differ.
 void add_styles(LAMMPS_NS::LAMMPS* lmp);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -15,6 +16,7 @@
 #include "harness/solvers/lammps_dump.h"
 #include "harness/solvers/ready.h"
 #include "harness/solvers/reduced.h"
+#include "harness/solvers/solver.h"
 
 namespace ddem::harness {
 namespace {
@@ -27,6 +29,7 @@ constexpr std::array<std::pair<Role, const char*>, 5> kGroups{
     {{held_x, "held_x"}, {held_y, "held_y"}, {held_theta, "held_theta"}, {driven, "driven"}, {recorded, "recorded"}}};
 
 constexpr const char* kMark = "ddem export --format lammps: ";  // at the beginning of every file (harness/io/output_kind.cc)
+constexpr std::size_t kPiece = 1 << 16;  // bytes
 constexpr double kRoom = 8.0;  // radii between discs and the walls of a box that is not periodic
 
 double at(const std::vector<double>& values, std::size_t d) { return values.empty() ? 0.0 : values[d]; }
@@ -35,7 +38,7 @@ double longest_bond(const ddem::Assembly& a) { return a.bonds.size() == 0 ? 0.0 
 
 class DdemInput {
  public:
-  explicit DdemInput(const Exchange& e) : e_(e), role_(e.assembly.size(), 0u), largest_(std::ranges::max(e.assembly.packing.radius)) {
+  explicit DdemInput(const Exchange& e) : e_(e), role_(e.assembly.size(), 0u), largest_(std::ranges::max(e.assembly.packing.radius)), touching_(may_close_gaps(e.assembly, e.input)) {
     const SimulationInput& in = e.input;
     const auto mark = [this](const std::vector<std::uint8_t>& held, Role role) {
       for (std::size_t d = 0; d < held.size(); ++d) {
@@ -52,7 +55,9 @@ class DdemInput {
     for (auto& [role, type] : type_) type = ++number;
   }
 
-  std::string data() const {
+  /// In pieces: at 1e6 discs the whole is a quarter of a gigabyte.
+  void write_data(const fs::path& path) const {
+    AtomicFile file(path);
     const ddem::Assembly& a = e_.assembly;
     const Packing& p = a.packing;
     const ddem::InitialState& s = e_.input.initial;
@@ -61,13 +66,19 @@ class DdemInput {
           a.size(), a.bonds.size(), type_.size());
     write(text, "{} xlo xhi\n{} ylo yhi\n{} {} zlo zhi\n\nAtoms # hybrid\n\n", limits(p.x, p.period.x), limits(p.y, p.period.y),
           -largest_, largest_);
-    for (std::size_t d = 0; d < a.size(); ++d)
-      write(text, "{} {} {} {} 0 {} {} 1\n", d + 1, type_.at(role_[d]), p.x[d], p.y[d], 2.0 * p.radius[d], a.density);
-    write(text, "\nVelocities\n\n");
-    for (std::size_t d = 0; d < a.size(); ++d) write(text, "{} {} {} 0 0 0 {}\n", d + 1, at(s.vx, d), at(s.vy, d), at(s.omega, d));
-    if (a.bonds.size() > 0) write(text, "\nBonds\n\n");
-    for (std::size_t b = 0; b < a.bonds.size(); ++b) write(text, "{} 1 {} {}\n", b + 1, a.bonds.i[b] + 1, a.bonds.j[b] + 1);
-    return {text.data(), text.size()};
+    const auto line = [&]<class... Args>(fmt::format_string<Args...> format, Args&&... args) {
+      write(text, format, std::forward<Args>(args)...);
+      if (text.size() < kPiece) return;
+      file.append({text.data(), text.size()});
+      text.clear();
+    };
+    for (std::size_t d = 0; d < a.size(); ++d) line("{} {} {} {} 0 {} {} 1\n", d + 1, type_.at(role_[d]), p.x[d], p.y[d], 2.0 * p.radius[d], a.density);
+    line("\nVelocities\n\n");
+    for (std::size_t d = 0; d < a.size(); ++d) line("{} {} {} 0 0 0 {}\n", d + 1, at(s.vx, d), at(s.vy, d), at(s.omega, d));
+    if (a.bonds.size() > 0) line("\nBonds\n\n");
+    for (std::size_t b = 0; b < a.bonds.size(); ++b) line("{} 1 {} {}\n", b + 1, a.bonds.i[b] + 1, a.bonds.j[b] + 1);
+    file.append({text.data(), text.size()});
+    file.commit();
   }
 
   /// Of discs that are displaced at first; empty where none is.
@@ -87,13 +98,14 @@ class DdemInput {
     write(text, "# {}{}\n# mpirun -np 2 ddem-lammps -in {}\nunits si\ndimension 2\n# Both ranks of a bond find its force: one exchange a step.\nnewton off\n", kMark, title(), kLammpsScript);
     write(text, "boundary {} {} p\natom_style hybrid sphere bond\n", p.period.x > 0.0 ? "p" : "f", p.period.y > 0.0 ? "p" : "f");
     // Discs are sorted at the start of a run: neighbours in space are neighbours in memory.
-    write(text, "atom_modify map array sort 1000 {}\npair_style none\nspecial_bonds lj/coul 1 1 1\nbond_style ddem {}\n", 4.0 * largest_,
-          in.contact.kinematics == Kinematics::linear ? "linear" : "nonlinear");
+    write(text, "atom_modify map array sort 1000 {}\n{}\nspecial_bonds lj/coul 1 1 1\nbond_style ddem {}\n", 4.0 * largest_, pair_style(), in.contact.kinematics == Kinematics::linear ? "linear" : "nonlinear");
     const double skin = 0.5 * largest_;
-    write(text, "# Ghosts reach beyond the longest bond.\ncomm_modify cutoff {}\nneighbor {} bin\n# Bonds have the geometry of the reference: lists need no renewal while nothing else acts.\nneigh_modify once yes\n",
-          std::max(3.0 * largest_, 1.1 * longest_bond(e_.assembly)) + 2.0 * skin, skin);
+    write(text, "# Ghosts reach beyond the longest bond.\ncomm_modify cutoff {}\nneighbor {} bin\n{}", std::max(3.0 * largest_, 1.1 * longest_bond(e_.assembly)) + 2.0 * skin,
+          skin, touching_ ? "neigh_modify delay 0 every 1 check yes\n"
+                          : "# Bonds have the geometry of the reference: lists need no renewal while nothing else acts.\nneigh_modify once yes\n");
     write(text, "read_data {}\n# Discs, of this density times the thickness\nset group all density/disc {}\n{}\n", kLammpsData,
           e_.assembly.density * e_.assembly.thickness, stiffness());
+    if (touching_) write(text, "pair_coeff * * {}\n", in.contact.uniform() ? fmt::to_string(in.contact.normal_stiffness) : fmt::format("modulus {}", in.contact.contact_modulus));
     write_groups(text);
     write(text, "{}\ntimestep {}\n", fix(), in.time_step);
     write(text, "thermo 100000000\nthermo_modify lost ignore norm no\n"
@@ -120,6 +132,15 @@ class DdemInput {
     if (period > 0.0) return fmt::format("0 {}", period);
     const auto [least, most] = std::ranges::minmax(places);
     return fmt::format("{} {}", least - kRoom * largest_, most + kRoom * largest_);
+  }
+
+  /// Discs that are not bonded and may touch. Strains up to a tenth move boundaries by a fifth of a radius; and in linear kinematics
+  /// discs that pass each other are further apart than along the normal of the reference. Displacements of a radius are its end.
+  std::string pair_style() const {
+    if (!touching_) return "pair_style none";
+    const double touching = 2.0 * std::ranges::min(e_.assembly.packing.radius), displacement = std::min(2.0 * displacement_put_in(e_.input), largest_);
+    const double aside = e_.input.contact.kinematics == Kinematics::linear ? std::hypot(touching, 2.0 * displacement) - touching : 0.0;
+    return fmt::format("pair_style ddem {}", 0.2 * largest_ + aside);
   }
 
   std::string stiffness() const {
@@ -169,6 +190,7 @@ class DdemInput {
   std::vector<unsigned> role_;
   std::map<unsigned, int> type_;  // of each set of roles that some disc has
   double largest_;                // radius
+  bool touching_;                 // the load may close gaps
 };
 
 std::string DdemInput::strain() const {
@@ -207,6 +229,7 @@ std::string lammps_ddem_refusal(const ddem::Assembly& a, const SimulationInput& 
   const bool implicit = d.scheme == Scheme::implicit;
   if (implicit && d.solver != StrainSolver::polynomial) return "implicit strains by conjugate gradients (use solver = \"polynomial\")";
   if (implicit && in.contact.kinematics == Kinematics::nonlinear) return "implicit strains with nonlinear kinematics, of which their polynomial is not made";
+  if (implicit && may_close_gaps(a, in)) return "implicit strains with new contacts, which this load may close (or set contact.new_contacts = \"off\")";
   for (const double period : {a.packing.period.x, a.packing.period.y}) {
     if (period > 0.0 && !(period > 2.0 * longest_bond(a))) return "a period that is not above twice the longest bond";
   }
@@ -222,7 +245,7 @@ void write_lammps_ddem(const fs::path& folder, const Exchange& e) {
     if (text.empty()) fs::remove(folder / kLammpsInitial[c]);  // of another scene
     else write_file(folder / kLammpsInitial[c], text);
   }
-  write_file(folder / kLammpsData, input.data());
+  input.write_data(folder / kLammpsData);
   write_file(folder / kLammpsScript, input.commands());
 }
 
@@ -238,7 +261,8 @@ std::shared_ptr<const Solver> lammps_ddem_solver(const ReadyOptions& o) {
   d.version_command = {program, "--version"};
   d.abilities.laws = builtin_solver().abilities().laws;
   d.abilities.nonlinear = true;
-  return external_solver(std::move(d), {write_lammps_ddem, read_ddem_motion, {}, lammps_ddem_refusal});
+  d.abilities.new_contacts = true;
+  return external_solver(std::move(d), {write_lammps_ddem, read_motion, {}, lammps_ddem_refusal});
 }
 
 }  // namespace ddem::harness

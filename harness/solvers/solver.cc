@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "dem/assembly/contacts.h"
 
@@ -31,15 +31,19 @@ double largest(const std::vector<double>& values) {
 
 }  // namespace
 
+double displacement_put_in(const SimulationInput& in) {
+  const double duration = in.time_step * static_cast<double>(in.steps);
+  return std::hypot(largest(in.initial.ux), largest(in.initial.uy)) + (in.drive ? std::abs(in.drive->amplitude) : 0.0) +
+         duration * std::hypot(largest(in.initial.vx), largest(in.initial.vy));
+}
+
 bool may_close_gaps(const ddem::Assembly& a, const SimulationInput& in) {
   if (in.new_contacts == ContactWatch::off) return false;
-  const double duration = in.time_step * static_cast<double>(in.steps);
-  const double displacement = std::hypot(largest(in.initial.ux), largest(in.initial.uy)) + (in.drive ? std::abs(in.drive->amplitude) : 0.0) +
-                              duration * std::hypot(largest(in.initial.vx), largest(in.initial.vy));
   try {
-    std::set<std::pair<int, int>> bonded;
-    for (std::size_t b = 0; b < a.bonds.size(); ++b) bonded.insert(std::minmax(a.bonds.i[b], a.bonds.j[b]));
-    return std::ranges::any_of(close_pairs(a.packing, 4.0 * displacement), [&](const ClosePair& p) { return !bonded.contains({p.i, p.j}); });
+    std::vector<std::pair<int, int>> bonded;
+    for (std::size_t b = 0; b < a.bonds.size(); ++b) bonded.emplace_back(std::minmax(a.bonds.i[b], a.bonds.j[b]));
+    std::ranges::sort(bonded);
+    return std::ranges::any_of(close_pairs(a.packing, 4.0 * displacement_put_in(in)), [&](const ClosePair& p) { return !std::ranges::binary_search(bonded, std::pair(p.i, p.j)); });
   } catch (const std::invalid_argument&) {  // further than half a period
     return true;
   }

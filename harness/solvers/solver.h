@@ -43,6 +43,9 @@ class Solver {
 /// "dem", "lagged-normal", "lagged-full", "implicit-normal-only-stress" ...
 std::string law_of(const DeformationParameters& deformation);
 
+/// Of a disc, m, that the input puts in: at first, by its velocity, and by the driven edge.
+double displacement_put_in(const SimulationInput& input);
+
 /// Whether the load can bring discs together that are not bonded: where it cannot, new contacts are nothing to ask a solver for.
 /// A bound: two waves of the largest displacement that the input puts in, one from either side.
 bool may_close_gaps(const ddem::Assembly& assembly, const SimulationInput& input);

@@ -90,7 +90,7 @@ TEST(InstabilityWarnings, OfSlowWavesOfTheLatticeAreGivenWhereTheRunShowsNone) {
 /// The flip, for any number of evaluations and relaxation: warned of exactly where the eigenvalues grow.
 TEST(InstabilityWarnings, OfTheStepsOfEverySchemeAgreeWithItsEigenvalues) {
   int unstable = 0, stable = 0;
-  for (const char* scheme : {"correction = \"full\"", "correction = \"full\"\nevaluations = 3", "correction = \"full\"\nrelaxation = 0.5",
+  for (const char* scheme : {"correction = \"full\"", "correction = \"normal\"", "correction = \"full\"\nevaluations = 3", "correction = \"full\"\nrelaxation = 0.5",
                              "correction = \"normal_only_stress\"\nevaluations = 3\nrelaxation = 0.7", "correction = \"full\"\nevaluations = 2\nrelaxation = 0.4",
                              "correction = \"full\"\nscheme = \"implicit\""}) {
     for (const double fraction : {0.3, 0.6, 0.8, 0.95, 1.02, 1.15, 1.4}) {

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "harness/io/atomic_file.h"
+#include "harness/io/digest.h"
 #include "harness/io/errors.h"
 #include "harness/solvers/lammps_ddem.h"
 #include "harness/solvers/ready.h"
@@ -105,36 +107,6 @@ TEST_F(OnLammps, OtherIntegratorsMoveDiscs) {
   EXPECT_LT(difference(ours.u, theirs.u), 1e-13);
   EXPECT_LT(difference(ours.theta, theirs.theta), 1e-12);
   EXPECT_GT(difference(ours.theta, integrated("nve/sphere").theta), 1e-2);
-}
-
-/// Rows of numbers that the script printed.
-std::vector<std::vector<double>> printed_rows(const std::string& said) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(said);
-  bool begun = false;  // by a line "Step ...", which later versions of LAMMPS indent
-  for (std::string line; std::getline(lines, line) && !(begun && line.starts_with("Loop"));) {
-    if (!begun) {
-      std::string first;
-      std::istringstream(line) >> first;
-      begun = first == "Step";
-      continue;
-    }
-    std::istringstream words(line);
-    std::vector<double> row;
-    for (double value = 0.0; words >> value;) row.push_back(value);
-    if (!row.empty()) rows.push_back(row);
-  }
-  return rows;
-}
-
-std::vector<std::vector<double>> thermo(const PreparedRun& run, int ranks, const std::string& before, const std::string& columns) {
-  const LammpsFolder folder(run);
-  const SubprocessResult done = folder.run(ranks, [&](std::string script) {
-    return replaced(std::move(script), "thermo 100000000\nthermo_modify",
-                    before + "thermo 10\nthermo_style custom step " + columns + "\nthermo_modify format float %.17g");
-  });
-  EXPECT_TRUE(done.succeeded()) << done.standard_output;
-  return printed_rows(done.standard_output);
 }
 
 /// Contact, strain and kinetic energy, of motion and of turning: their sum oscillates by the square of the step, and does not drift.
@@ -249,6 +221,27 @@ TEST_F(OnLammps, TheStockProgramLoadsTheStyles) {
 #endif
 }
 
+#ifdef DDEM_PLUGIN_HOST
+/// By LAMMPS' interface of plugins, to the same bits; a script that uses all three styles.
+TEST_F(OnLammps, APluginHostIsGivenTheStyles) {
+  const PreparedRun run = shaken(touching(lagged("full")));
+  const Motion ours = by_lammps(run);
+  const LammpsFolder folder(run);
+  write_file(folder.path() / "in.test", folder.read(kLammpsScript));
+  const SubprocessResult done = run_confined(DDEM_PLUGIN_HOST, {DDEM_PLUGIN, "-in", "in.test", "-log", "none"}, {folder.path(), {}, 60.0});
+  ASSERT_TRUE(done.succeeded()) << done.standard_output << done.standard_error;
+  for (const char* style : {"bond", "pair", "fix"}) EXPECT_THAT(done.standard_output, HasSubstr(std::string("registered: ") + style + " ddem, "));
+  EXPECT_EQ(folder.motion().u, ours.u);
+}
+
+TEST_F(OnLammps, APluginHostOfAnotherVersionIsGivenNothing) {
+  const TemporaryFolder folder("ddem-lammps-test");
+  const SubprocessResult done = run_confined("env", {"LD_PRELOAD=" DDEM_OTHER_VERSION, DDEM_PLUGIN_HOST, DDEM_PLUGIN, "-in", "/dev/null", "-log", "none"}, {folder.path(), {}, 60.0});
+  EXPECT_THAT(done.standard_error, testing::AllOf(HasSubstr("this is 20300101"), HasSubstr("build them anew")));
+  EXPECT_THAT(done.standard_output, testing::Not(HasSubstr("registered")));
+}
+#endif
+
 /// theory section 2: 2G of the lattice, variant F; a pulse of 10 diameters between samples of 1 % of the time that it takes.
 TEST_F(OnLammps, TheExampleMeasuresItsWave) {
   const TemporaryFolder folder("ddem-lammps-test");
@@ -269,6 +262,19 @@ TEST_F(OnLammps, TheExampleMeasuresItsWave) {
   const double shear = a * (1.0 + ratio) / 4.0, twice_g = shear / (1.0 + shear / (fraction * disc));
   const double speed = std::sqrt(0.5 * twice_g / (density * fraction));
   EXPECT_NEAR(50.0 * 2e-4 / (far_time - near_time) * 1e6, speed, 0.015 * speed);
+}
+
+/// Digests of the files as they were while their text was made in one piece: 8000 discs are many pieces.
+TEST(LammpsDdem, FilesAreThoseOfBefore) {
+  StripScene scene;
+  scene.assembly = "packing = \"hexagonal\"\ncolumns = 200\nrows = 40\nradius = \"0.1 mm\"\nclose_packed_along = \"x\"\n";
+  scene.deformation = lagged("full"), scene.edges = "periodic", scene.thickness = "1.5", scene.load = kShearDrive, scene.discs = "0, 399, 4711";
+  PreparedRun run = prepared(scene);
+  run.input.time_step = 1e-8;
+  const TemporaryFolder folder("ddem-lammps-test");
+  write_lammps_ddem(folder.path(), {run.run.assembly, run.input, {}, ""});
+  EXPECT_EQ(sha256_of_file(folder.path() / kLammpsData), "0f9d0069129da062a0a76128b52dbb135075b7d70d28a3d633b990875aa0bc11");
+  EXPECT_EQ(sha256_of_file(folder.path() / kLammpsScript), "9f1641b43d04268dd50259e182e02d6d7dca36e260a1b04c7297849354b639fd");
 }
 
 TEST(LammpsDdem, RefusesWhatItCannotDo) {

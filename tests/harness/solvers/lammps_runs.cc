@@ -7,7 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <sstream>
 
+#include "dem/assembly/contacts.h"
 #include "harness/io/atomic_file.h"
 #include "harness/model/assemble.h"
 #include "harness/scene/read_scene.h"
@@ -29,12 +32,40 @@ std::string implicit(const std::string& correction) {
 
 PreparedRun prepared(const StripScene& s) {
   const std::string text = fmt::format(
-      "[assembly]\n{}thickness = {}\n[material]\ndensity = 2000\n[contact]\nstiffness_ratio = {}\nnew_contacts = \"off\"\n{}{}[boundary]\n"
+      "[assembly]\n{}thickness = {}\n[material]\ndensity = 2000\n[contact]\nstiffness_ratio = {}\nnew_contacts = \"{}\"\n{}{}[boundary]\n"
       "top_bottom = \"{}\"\nright = \"fixed_x\"\n{}[time]\nstep_fraction = {}\nsteps = {}\nsample_every = {}\n[probes]\ndiscs = [{}]\n",
-      s.assembly, s.thickness, s.ratio, s.contact, s.deformation, s.edges, s.load, s.step_fraction, s.steps, s.sample_every, s.discs);
+      s.assembly, s.thickness, s.ratio, s.new_contacts, s.contact, s.deformation, s.edges, s.load, s.step_fraction, s.steps, s.sample_every, s.discs);
   const SceneResult scene = parse_scene(text, "scene.toml", ".", {Purpose::simulation});
   EXPECT_TRUE(scene) << to_string(scene.violations);
   return prepare_run(*scene, build_assembly(*scene));
+}
+
+StripScene touching(const std::string& deformation, const std::string& contact, const char* edges) {
+  StripScene s;
+  s.new_contacts = "auto";
+  s.deformation = deformation, s.contact += contact, s.edges = edges;
+  return s;
+}
+
+PreparedRun shaken(const StripScene& scene) {
+  PreparedRun run = prepared(scene);
+  Bonds& b = run.run.assembly.bonds;
+  std::vector<std::pair<int, int>> kept;
+  for (std::size_t c = 0; c < b.size(); ++c) {
+    if (c % 4 != 0) kept.emplace_back(b.i[c], b.j[c]);
+  }
+  b = bonds_between(run.run.assembly.packing, kept);
+  ddem::InitialState& s = run.input.initial;
+  std::mt19937 random(7);
+  const auto shake = [&](std::vector<double>& v, const std::vector<std::uint8_t>& held) {
+    v.resize(run.run.assembly.size());
+    for (std::size_t d = 0; d < v.size(); ++d) {
+      const double velocity = 40.0 * (static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5);  // m/s
+      v[d] = held.empty() || held[d] == 0 ? velocity : 0.0;
+    }
+  };
+  shake(s.vx, run.input.held.x), shake(s.vy, run.input.held.y);
+  return run;
 }
 
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -110,6 +141,41 @@ Motion by_lammps(const PreparedRun& run, int ranks, const Edit& edit) {
   const SubprocessResult done = folder.run(ranks, edit);
   EXPECT_TRUE(done.succeeded()) << done.status() << done.standard_output << done.standard_error;
   return folder.motion();
+}
+
+namespace {
+
+/// Rows of numbers that the script printed.
+std::vector<std::vector<double>> printed_rows(const std::string& said) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(said);
+  bool begun = false;  // by a line "Step ...", which later versions of LAMMPS indent
+  for (std::string line; std::getline(lines, line) && !(begun && line.starts_with("Loop"));) {
+    if (!begun) {
+      std::string first;
+      std::istringstream(line) >> first;
+      begun = first == "Step";
+      continue;
+    }
+    std::istringstream words(line);
+    std::vector<double> row;
+    for (double value = 0.0; words >> value;) row.push_back(value);
+    if (!row.empty()) rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> thermo(const PreparedRun& run, int ranks, const std::string& before, const std::string& columns, const Edit& edit) {
+  const LammpsFolder folder(run);
+  const SubprocessResult done = folder.run(ranks, [&](std::string script) {
+    if (edit) script = edit(std::move(script));
+    return replaced(std::move(script), "thermo 100000000\nthermo_modify",
+                    before + "thermo 10\nthermo_style custom step " + columns + "\nthermo_modify format float %.17g");
+  });
+  EXPECT_TRUE(done.succeeded()) << done.standard_output;
+  return printed_rows(done.standard_output);
 }
 
 void OnLammps::SetUp() {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct StripScene {
   double step_fraction = 0.2;
   int steps = 400, sample_every = 20;
   std::string assembly = "packing = \"random\"\nlength = \"7 mm\"\nwidth = \"1.4 mm\"\ndiscs = 200\nseed = 3\n";
+  std::string new_contacts = "off";
   std::string discs = "0, 3, 11, 40, 77, 90, 123, 150, 171, 199";
 };
 std::string lagged(const std::string& correction, const std::string& more = "");
@@ -36,6 +38,12 @@ std::string implicit(const std::string& correction);
 inline constexpr const char* kShearDrive = "[drive]\nwave = \"shear\"\nduration = \"1 us\"\namplitude = \"1 um\"\n";
 
 PreparedRun prepared(const StripScene& scene);
+
+/// With new contacts.
+StripScene touching(const std::string& deformation = "", const std::string& contact = "", const char* edges = "free");
+/// Every fourth bond is cut, so that there are pairs with a gap of nearly nothing all over the strip, and discs are shaken by
+/// velocities at random: contacts close and open everywhere.
+PreparedRun shaken(const StripScene& scene);
 
 /// ux, uy, theta of a scene's discs over time.
 struct Motion {
@@ -59,6 +67,7 @@ class LammpsFolder {
   /// What the last run left.
   Motion motion() const;
   std::string read(const std::string& name) const;
+  const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
   const PreparedRun& run_;
@@ -69,6 +78,9 @@ class LammpsFolder {
 Motion by_lammps(const PreparedRun& run, int ranks = 1, const Edit& edit = {});
 
 std::string newton_on(std::string script);
+
+/// Step and these columns of thermo_style, every ten steps; `before`: further commands, `edit`: of the script.
+std::vector<std::vector<double>> thermo(const PreparedRun& run, int ranks, const std::string& before, const std::string& columns, const Edit& edit = {});
 
 class OnLammps : public testing::Test {
  protected:
