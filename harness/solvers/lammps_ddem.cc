@@ -262,7 +262,7 @@ std::shared_ptr<const Solver> lammps_ddem_solver(const ReadyOptions& o) {
   d.abilities.laws = builtin_solver().abilities().laws;
   d.abilities.nonlinear = true;
   d.abilities.new_contacts = true;
-  return external_solver(std::move(d), {write_lammps_ddem, read_motion, {}, lammps_ddem_refusal});
+  return external_solver(std::move(d), {write_lammps_ddem, read_ddem_motion, {}, lammps_ddem_refusal});
 }
 
 }  // namespace ddem::harness
