@@ -126,6 +126,15 @@ MetricProblem problem_of_metric(const std::string& metric) {
   return {"no such number", fmt::format("there are {}{}", prefix, fmt::join(names, ", " + prefix))};
 }
 
+std::string_view unit_of_metric(const std::string& metric) {
+  const auto ends = [&](string_view end) { return metric.ends_with(end); };
+  if (metric.find("wave_speed") != std::string::npos || ends("_velocity") || ends("_speed")) return "m/s";
+  if (ends("_modulus")) return "Pa";
+  if (ends("density")) return "kg/m3";
+  if (ends("time_step")) return "s";
+  return "";
+}
+
 MetricProblem problem_of_metric(const std::string& metric, const Scene& scene) {
   const std::string group = group_of(metric).value();
   const string_view name = name_of(metric, group);

@@ -19,6 +19,9 @@ struct MetricProblem {
 /// Of a name alone: no prefix of ours, no such number.
 MetricProblem problem_of_metric(const std::string& metric);
 
+/// The SI unit of a known metric; empty: dimensionless.
+std::string_view unit_of_metric(const std::string& metric);
+
 /// Of a known metric with a scene that can never have it. (What fails to be measured is found when it is run.)
 MetricProblem problem_of_metric(const std::string& metric, const Scene& scene);
 

@@ -180,6 +180,9 @@ class CaseReader {
       lacks("lower",
             "give lower, upper or both: shares of the target such as -0.01 and 0.01, or without a target the "
             "bounds themselves");
+    if (const std::string_view unit = unit_of_metric(c.metric); !c.metric.empty() && !c.unit.empty() && c.unit != unit)
+      report(element.line, "case.criterion.unit", c.unit, fmt::format("{} {}", c.metric, unit.empty() ? "has no unit" : fmt::format("is in {}", unit)),
+             unit.empty() ? "leave unit out" : fmt::format("give target and bounds in {}, and unit = \"{}\" or none", unit, unit));
     const bool has_target = c.target || !c.reference.empty();
     if (!c.reference.empty() && c.reference == c.metric)
       report(element.line, "case.criterion.target", c.reference, "a metric is as good as itself", "name another metric, or give a number");

@@ -48,6 +48,21 @@ TEST_F(CampaignProblems, MisspeltMetrics) {
   }
 }
 
+// A bound in GPa would be judged as so many Pa, and the report would name a unit that its numbers have not.
+TEST_F(CampaignProblems, UnitsThatAMetricHasNot) {
+  for (const auto& [metric, unit, says] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"wave_speed", "km/h", "wave_speed is in m/s"},
+           {"fem.wave_speed_by_centroid", "mm/us", "is in m/s"},
+           {"static.shear_velocity", "km/s", "is in m/s"},
+           {"static.young_modulus", "GPa", "static.young_modulus is in Pa; give target and bounds in Pa"},
+           {"moving_density", "g/cm3", "is in kg/m3"},
+           {"stability.critical_time_step", "us", "is in s"},
+           {"static.poisson_ratio", "%", "static.poisson_ratio has no unit; leave unit out"},
+           {"discs", "1", "discs has no unit"}}) {
+    expect_refused(replaced(case_of("scene.toml", metric), "lower", "unit = \"" + unit + "\"\nlower"), {"case.criterion.unit = " + unit, says});
+  }
+}
+
 TEST_F(CampaignProblems, MetricsThatTheSceneCannotHave) {
   write("points.toml", replaced(with_table(small_scene(), "[time]\nend = \"1 us\""), "pairs = 3", "points = [[1e-3, 1e-4]]"));
   write("one.toml", replaced(small_scene(), "pairs = 3", "pairs = 1"));
