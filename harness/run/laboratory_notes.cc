@@ -9,6 +9,7 @@ namespace ddem::harness {
 namespace {
 
 // An offset or a trend below this part of the wave is none worth a word.
+constexpr double kSlowestSolid = 0.1, kFastestSolid = 1e5;  // m/s, with room
 constexpr double kOffset = 0.01;
 // Marks that differ by more than so many standard deviations, and by more than this part of the speed, say that the wave changes.
 constexpr double kBeyondNoise = 4.0, kSameShape = 1e-3;
@@ -52,6 +53,17 @@ std::optional<std::string> marks_differ(const LaboratoryResult& result) {
       slow.mean, fast.mean, 100.0 * apart / slow.mean);
 }
 
+/// Solids carry waves of some metres (gels) to 20 km/s (diamond) a second.
+std::optional<std::string> unlike_a_solid(const LaboratoryResult& result) {
+  for (const auto& speed : result.speed) {
+    if (!speed.ok() || (speed.value().mean >= kSlowestSolid && speed.value().mean <= kFastestSolid)) continue;
+    return fmt::format("no solid carries a wave of {:.3g} m/s: is a unit missing? Distances are in m, as in --distance \"10 mm\", times in s unless "
+                       "--time-unit says otherwise",
+                       speed.value().mean);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::string> notes_of(const LaboratoryRecording& recording, const LaboratoryOptions& options, const LaboratoryResult& result) {
@@ -75,6 +87,7 @@ std::vector<std::string> notes_of(const LaboratoryRecording& recording, const La
     if (r.clipped) notes.push_back(fmt::format("{}: the wave is clipped, or has a plateau", sensor));
   }
   if (auto note = marks_differ(result)) notes.push_back(std::move(*note));
+  if (auto note = unlike_a_solid(result)) notes.push_back(std::move(*note));
   return notes;
 }
 

@@ -60,6 +60,14 @@ TEST(Laboratory, MeasuresACleanPulseInEveryWay) {
   EXPECT_TRUE(r.modulus.empty());
 }
 
+TEST(Laboratory, ASpeedThatNoSolidHasIsTold) {
+  for (const double factor : {1e-6, 1e3}) {  // seconds for microseconds, metres for millimetres
+    LaboratoryRecording wrong = recording_of({}, 1);
+    for (LaboratorySensor& sensor : wrong.sensors) sensor.position *= factor;
+    EXPECT_THAT(notes(measure_recording(wrong, {})), HasSubstr("is a unit missing?")) << factor;
+  }
+}
+
 TEST(Laboratory, DoesNotDependOnUnitsStartOrOrder) {
   Shot shot;
   shot.noise = 0.02;
