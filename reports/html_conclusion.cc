@@ -94,7 +94,10 @@ void append_conclusion(Markup& out, const Report& report) {
   if (const std::vector<Near> all = nearest(report.verdicts); !all.empty()) {
     out.open("li").text(fmt::format("Of what passed, {} of ", all.front().criterion->metric));
     append_case_link(out, all.front().verdict->case_id);
-    out.text(fmt::format(" is nearest to its limit, {} of the way there.", percent(all.front().share))).close().newline();
+    const Criterion& c = *all.front().criterion;
+    out.text(fmt::format(" is nearest to its limit: {}{}{}, accepted {}, {} of the way there.", number_text(c.actual), c.unit.empty() ? "" : " ", c.unit,
+                         accepted_text(c), percent(all.front().share)));
+    out.close().newline();
   }
   out.close().close().newline();
 }

@@ -84,7 +84,7 @@ int run(const RunCommandOptions& o) {
   if (o.json) {
     print_json(run_json(run));
   } else {
-    print_steps(run);
+    print_steps(run, scene);
     if (run.measurement) print_speeds(*run.measurement, run.layout);
   }
   return static_cast<int>(ExitCode::done);

@@ -6,12 +6,12 @@
 
 namespace ddem::harness {
 
-void print_steps(const DemRun& run) {
+void print_steps(const DemRun& run, const Scene& scene) {
   const SimulationResult& r = run.result;
   fmt::print("{} discs, {} bonds; {} steps of {} ({:.3g} of the critical {}) in {:.3g} s\n", run.assembly.size(),
              run.assembly.bonds.size(), r.steps_done, format_quantity(run.time_step, "s"), run.time_step / run.critical_time_step,
              format_quantity(run.critical_time_step, "s"), r.wall_seconds);
-  if (r.energy_drift) fmt::print("energy drift {:.3g}\n", *r.energy_drift);
+  if (r.energy_drift) fmt::print("energy drift {:.3g}{}\n", *r.energy_drift, scene.deformation && scene.deformation->scheme == Scheme::lagged ? " (strains that lag a step lose energy)" : "");
 }
 
 void print_speeds(const WaveMeasurement& measurement, const ProbeLayout& layout) {

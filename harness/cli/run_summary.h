@@ -6,7 +6,7 @@
 namespace ddem::harness {
 
 /// Discs, steps and the drift of the energy.
-void print_steps(const DemRun& run);
+void print_steps(const DemRun& run, const Scene& scene);
 /// The pairs, and their mean or why there is none.
 void print_speeds(const WaveMeasurement& measurement, const ProbeLayout& layout);
 

@@ -67,6 +67,7 @@ void refuse_empty_values(CLI::App& app) {
 
 std::string explain_slip(const CLI::App& app, int argc, const char* const* argv) {
   const auto [command, wrong] = follow(app, argc, argv);
+  if (wrong == "help") return "help: give --help after a command, such as: ddem calibrate --help; ddem --help lists them";
   if (!wrong.empty()) return unknown("command", wrong, command_names(*command));
   for (const std::string& word : command->remaining()) {
     if (word.starts_with('-')) return unknown("option", word.substr(0, word.find('=')), option_names(*command));

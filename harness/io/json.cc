@@ -89,7 +89,7 @@ Json unsealed(Json document, const std::string& place) {
   document.erase(kDigest);
   if (digest != Json(sha256(to_text(document))))
     throw InputError(place + ": damaged, or changed after it was written: its digest does not hold (whoever meant to change it "
-                              "removes \"digest\")");
+                              "removes its line, the last, and the comma before it)");
   return document;
 }
 

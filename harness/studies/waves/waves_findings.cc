@@ -51,26 +51,42 @@ std::string reach_sentence(const StripResults& r) {
   std::string text = fmt::format("In random packings {} reaches Poisson's ratios {}, DEM {}", name(best->model), text_of(*best), text_of(*dem));
   text += best->highest - dem->highest >= 0.0005 ? fmt::format(": {:.3f} beyond it.", best->highest - dem->highest) : ": no more.";
   const double cost = seconds_a_wave(r, best->model), of_dem = seconds_a_wave(r, Model::dem);
-  if (cost > 0.0 && of_dem > 0.0) text += fmt::format(" Its waves took {:.1f} times as long as DEM's.", cost / of_dem);
+  if (cost > 0.0 && of_dem > 0.0) text += fmt::format(" Its waves cost {:.1f} times the computing time of DEM's.", cost / of_dem);
   return text;
 }
 
-/// |speed / reference - 1| of the waves of bulk (P and shear) through a packing.
-std::vector<double> deviations(const StripResults& r, StripPacking packing, double WaveOutcome::*reference) {
+enum class Kind { bulk, bar };  // bulk: P and shear
+
+/// |speed / reference - 1| of the long waves of a kind through a packing, in order.
+template <class Reference>
+std::vector<double> deviations(const StripResults& r, StripPacking packing, Kind kind, const Reference& reference) {
   std::vector<double> all;
   for (const WaveOutcome& w : r.waves) {
-    if (w.c.protocol != Protocol::long_wave || w.c.packing != packing || w.c.wave == StripWave::bar || !w.speed || !(w.*reference > 0.0)) continue;
-    all.push_back(std::abs(*w.speed / w.*reference - 1.0));
+    const bool wanted = w.c.protocol == Protocol::long_wave && w.c.packing == packing && (w.c.wave == StripWave::bar) == (kind == Kind::bar);
+    const double right = wanted ? reference(w) : 0.0;
+    if (w.speed && right > 0.0) all.push_back(std::abs(*w.speed / right - 1.0));
   }
   std::sort(all.begin(), all.end());
   return all;
 }
 
-std::string speed_sentence(const std::vector<double>& sorted, const char* of_what, const char* reference) {
-  if (sorted.empty()) return "";
+std::string within(const std::vector<double>& sorted) {
   const double median = 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
-  return fmt::format("P and shear waves through {} run within {:.2f} % of {} (median {:.2f} %, waves: {}).", of_what, 100.0 * sorted.back(), reference,
-                     100.0 * median, sorted.size());
+  return fmt::format("{:.2f} % (median {:.2f} %, waves: {})", 100.0 * sorted.back(), 100.0 * median, sorted.size());
+}
+
+std::string bulk_sentence(const std::vector<double>& sorted, const char* of_what, const char* reference) {
+  return sorted.empty() ? "" : fmt::format("P and shear waves through {} run within {} of {}.", of_what, within(sorted), reference);
+}
+
+/// A bar's waves disperse: what S0 makes of the static speed is what they should have.
+std::string bar_sentence(const StripResults& r) {
+  const std::vector<double> of_static = deviations(r, StripPacking::random, Kind::bar, [](const WaveOutcome& w) { return w.static_speed; });
+  const std::vector<double> of_s0 = deviations(r, StripPacking::random, Kind::bar, [](const WaveOutcome& w) { return w.s0.peak.value_or(0.0); });
+  if (of_static.empty()) return "";
+  std::string text = fmt::format("Bar waves through random packings run within {} of the static speeds of their strips", within(of_static));
+  if (!of_s0.empty()) text += fmt::format(", and within {} of what the dispersion of S0 makes of these", within(of_s0));
+  return text + ".";
 }
 
 }  // namespace
@@ -78,8 +94,10 @@ std::string speed_sentence(const std::vector<double>& sorted, const char* of_wha
 std::vector<std::string> wave_findings(const StripResults& r) {
   std::vector<std::string> findings = {
       reach_sentence(r),
-      speed_sentence(deviations(r, StripPacking::random, &WaveOutcome::section_speed), "random packings", "the static speeds between the same sections"),
-      speed_sentence(deviations(r, StripPacking::hexagonal, &WaveOutcome::kinematic_speed), "the lattice", "the closed forms"),
+      bulk_sentence(deviations(r, StripPacking::random, Kind::bulk, [](const WaveOutcome& w) { return w.section_speed; }), "random packings",
+                    "the static speeds between the same sections"),
+      bar_sentence(r),
+      bulk_sentence(deviations(r, StripPacking::hexagonal, Kind::bulk, [](const WaveOutcome& w) { return w.kinematic_speed; }), "the lattice", "the closed forms"),
   };
   std::erase(findings, "");
   return findings;
