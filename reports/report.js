@@ -114,10 +114,10 @@ const ddemPage = (() => {
     if (link) openTarget(link.hash);
   });
 
-  // ---- On paper all details are open, data aside.
+  // ---- On paper details are open, data and cases that passed aside.
   let opened = [];
   window.addEventListener('beforeprint', () => {
-    opened = all('details:not(.data)').filter((d) => !d.open);
+    opened = all('details:not(.data, .case)').filter((d) => !d.open);
     for (const d of opened) d.open = true;
   });
   window.addEventListener('afterprint', () => {
