@@ -89,11 +89,15 @@ function(ddem_library name)
   ddem_use_precompiled_headers(${name})
 endfunction()
 
-# A GoogleTest executable: every test becomes a CTest of its own. LABELS nightly: left out of ./ddem test.
+# A GoogleTest executable: every test becomes a CTest of its own. LABELS nightly: left out of ./ddem test. PROCESSORS: that a test
+# uses at a time.
 function(ddem_test name)
-  cmake_parse_arguments(ARG "" "LABELS" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABELS;PROCESSORS" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_PROCESSORS)
+    set(ARG_PROCESSORS 1)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} ddem_oracles ddem_flags GTest::gtest_main)
   ddem_use_precompiled_headers(${name})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}" PROCESSORS ${ARG_PROCESSORS})
 endfunction()

@@ -58,6 +58,7 @@ TEST_P(OnLammpsContact, MovesAsTheBuiltInSolverSays) {
   const Motion ours = by_builtin_touching(run);
   for (const int ranks : {1, 2, 4}) {
     for (const Edit& edit : {Edit(), Edit(newton_on)}) {
+      if (ranks == 4 && edit) continue;  // ContactsChangeRanks has both
       const Motion theirs = by_lammps(run, ranks, edit);
       EXPECT_LT(difference(ours.u, theirs.u), GetParam().displacements) << ranks << (edit ? ", newton on" : "");
       EXPECT_LT(difference(ours.theta, theirs.theta), 10.0 * GetParam().displacements) << ranks << (edit ? ", newton on" : "");
