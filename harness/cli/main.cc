@@ -35,7 +35,7 @@ constexpr const char* kFooter = R"(Examples:
   ddem measure shots.csv --distance "10 mm"
                                          wave speeds from signals of a laboratory
 
-Example scenes and campaigns, and the guide, stand in harness/ of the checkout, or in share/ddem of an installation.
+Example scenes and campaigns, and the guide, are in harness/ of the checkout, or of share/ddem where ddem is installed.
 
 Exit codes: 0 done, within tolerance; 1 a verdict failed, or a target is out of reach; 2 wrong use or input;
             3 a solver failed (unstable, no convergence); 4 the machine failed (disk, missing tool).)";
