@@ -1,4 +1,6 @@
 // The user's own scenes.
+#include <algorithm>
+
 #include "harness/campaign/pieces.h"
 #include "harness/studies/user_cases/user_case.h"
 
@@ -20,6 +22,16 @@ class UserCasesStudy : public Study {
     std::vector<Judged> judged;
     for (const CaseResult& r : results_) judged.push_back({case_verdict(r), {"case/" + r.c.id}});
     return judged;
+  }
+
+  void count(nightly::WorkCounts& work) const override {
+    for (const CaseResult& r : results_) {
+      const auto asks_for = [&](std::string_view group) {
+        return r.found.failure.empty() && std::ranges::any_of(r.c.criteria, [&](const CaseCriterion& c) { return group_of(c.metric) == group || (!c.reference.empty() && group_of(c.reference) == group); });
+      };
+      work.simulations += asks_for("") ? 1 : 0;
+      work.finite_element_runs += asks_for("fem") ? 1 : 0;
+    }
   }
 
   nlohmann::json data() const override {

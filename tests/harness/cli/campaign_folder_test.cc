@@ -70,6 +70,12 @@ class CampaignFolder : public SmallCampaign {
   }
 };
 
+// Three stiffness ratios by two densities, each a wave.
+TEST_F(CampaignFolder, ItsProvenanceCountsWhatRan) {
+  ASSERT_EQ(validate("night").exit_code, 0);
+  EXPECT_THAT(read("night/report.html"), HasSubstr("<dt>simulations</dt><dd>6</dd>"));
+}
+
 TEST_F(CampaignFolder, CommandsOfAReportCanBePasted) {
   const std::vector<std::string> names = {"campaign.toml", "it's a \"campaign\" $HOME.toml", "-campaign.toml"};
   for (const std::string& name : names) {
