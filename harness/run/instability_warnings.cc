@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dem/spectra/fixed_point_bound.h"
+#include "dem/spectra/limit_bounds.h"
 #include "dem/spectra/spectra.h"
 #include "harness/model/assemble.h"
 #include "harness/run/wave_growth.h"
@@ -15,6 +15,7 @@
 namespace ddem::harness {
 namespace {
 
+constexpr double kAccuracy = 0.99;  // of critical steps, above 20000 unknowns
 
 /// "by 2.1e-05 a step, 1.5 times in 20000 steps".
 std::string growth_text(double log_a_step, long steps) {
@@ -35,26 +36,6 @@ std::optional<std::string> even_warning(const DeformationParameters& d) {
   return fmt::format("deformation.evaluations = {}: an even number of evaluations without relaxation adds energy to the waves; use an odd number, or "
                      "relaxation below 1",
                      d.evaluations);
-}
-
-/// Whether a lagged step is so far below its limits that they need not be known: those take minutes, and a factorisation of all
-/// strains of 9 GB, for 1e6 discs. With N = (V C_p)^-1/2 S_n K_n^1/2, of which the fixed point has the radius rho = |N|^2 below its
-/// reach R = 2/w - 1, a motion that flips meets K^1/2 (1 + X) K^1/2 (dem/spectra/scheme_stiffness.h), so that the flip limit is not
-/// below the critical step of DEM over the root of 1 + |X|.
-/// Symmetric corrections: for an odd number of evaluations 1 + X has the eigenvalues 1/(1+b) + 2b/(1+b) r^(s-1)/(1+r^s) <= R/(R - b), as
-/// |r| < 1, so 1 + |X| <= R/(R - rho). The normal one: X = N^T (R - N N^T)^-1 [N, N_t] for s = 1, and |[N, N_t]|^2 is the radius with the
-/// full one, so |X| <= sqrt(rho rho_full)/(R - rho).
-bool far_below(const ddem::Assembly& a, const ContactParameters& contact, DeformationParameters d, const MarchedScheme& m) {
-  if (d.scheme != Scheme::lagged || d.evaluations % 2 == 0 || (d.correction == Correction::normal && d.evaluations != 1)) return false;
-  const double reach = 2.0 / d.relaxation - 1.0, radius = fixed_point_bound(a, contact, d);
-  if (!(radius < reach)) return false;
-  double stiffer = reach / (reach - radius);
-  if (d.correction == Correction::normal) {
-    d.correction = Correction::full;
-    stiffer = 1.0 + std::sqrt(radius * fixed_point_bound(a, contact, d)) / (reach - radius);
-  }
-  constexpr double kAccuracy = 0.99;  // of the critical step, above 20000 unknowns
-  return m.time_step * std::sqrt(stiffer) < kAccuracy * m.dem_critical_time_step;
 }
 
 /// A share w of the new strain stretches the limit of the fixed point to 2/w - 1.
@@ -106,7 +87,8 @@ std::vector<std::string> instability_warnings(const Scene& scene, const ddem::As
     return warnings;
   }
   add(even_warning(d));
-  const bool safe = far_below(a, contact, d, march);
+  // Finding the limits themselves takes minutes, and 9 GB, for 1e6 discs.
+  const bool safe = d.scheme == Scheme::lagged && march.time_step < kAccuracy * flip_limit_bound(a, contact, d, march.dem_critical_time_step);
   if (d.scheme == Scheme::lagged && !safe) {
     if (const double radius = radius_over_limit(a, contact, d); radius >= 1.0) {
       warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g} times what it may be; stiffen the discs "

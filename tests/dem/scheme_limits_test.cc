@@ -7,7 +7,6 @@
 
 #include "dem/simulation/simulation.h"
 #include "dem/spectra/bloch.h"
-#include "dem/spectra/fixed_point_bound.h"
 #include "dem/spectra/spectra.h"
 #include "harness/references/lattice_stability.h"
 #include "tests/support/assemblies.h"
@@ -37,20 +36,6 @@ double largest_growth(const HexagonalBloch& bloch, double dt) {
     }
   }
   return worst;
-}
-
-/// Sharp where all discs strain alike. A disc that strains alone bounds the radius from below, by half of that.
-TEST(FixedPointBound, IsNotBelowTheRadius) {
-  for (const Correction correction : {Correction::normal, Correction::full, Correction::normal_only_stress}) {
-    for (const double lambda : {0.0, 0.7}) {
-      const DeformationParameters d = strains(Scheme::lagged, correction, 0.3);
-      const Assembly lattice = periodic_cell(1.25), random = test::random_free_strip();
-      EXPECT_NEAR(fixed_point_bound(lattice, linear_contact(lambda), d) / fixed_point_radius(lattice, linear_contact(lambda), d), 1.0, 1e-4);
-      const double over = fixed_point_bound(random, linear_contact(lambda), d) / fixed_point_radius(random, linear_contact(lambda), d);
-      EXPECT_GT(over, 1.0 - 1e-4);
-      EXPECT_LT(over, 2.0);
-    }
-  }
 }
 
 TEST(CriticalStep, IsWhereThePlaneWavesOfTheLatticeBeginToGrow) {

@@ -1,7 +1,8 @@
-#include "dem/spectra/fixed_point_bound.h"
+#include "dem/spectra/limit_bounds.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "dem/assembly/bond_stiffness.h"
@@ -34,6 +35,18 @@ double fixed_point_bound(const Assembly& a, const ContactParameters& contact, co
     most = std::max(most, of_disc.eigenvalues()[2] / volume[p]);
   }
   return 2.0 * most;
+}
+
+double flip_limit_bound(const Assembly& a, const ContactParameters& contact, DeformationParameters d, double rigid_critical_step) {
+  if (d.evaluations % 2 == 0 || (d.correction == Correction::normal && d.evaluations != 1)) return 0.0;
+  const double reach = 2.0 / d.relaxation - 1.0, radius = fixed_point_bound(a, contact, d);
+  if (!(radius < reach)) return 0.0;
+  double stiffer = reach / (reach - radius);
+  if (d.correction == Correction::normal) {
+    d.correction = Correction::full;
+    stiffer = 1.0 + std::sqrt(radius * fixed_point_bound(a, contact, d)) / (reach - radius);
+  }
+  return rigid_critical_step / std::sqrt(stiffer);
 }
 
 }  // namespace ddem
