@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -80,6 +81,26 @@ TEST(FlipLimitBound, IsNotAboveTheLimit) {
                          assembly, linear_contact(lambda), strains(Scheme::lagged, correction, 1.0, evaluations, relaxation), {});
         }
       }
+    }
+  }
+}
+
+// Two discs that approach each other have one motion and strain alike: nothing is given away.
+TEST(FlipLimitBound, IsTheLimitOfAPair) {
+  Packing p;
+  p.x = {1e-4, 3e-4}, p.y = {1e-4, 1e-4}, p.radius = {1e-4, 1e-4};
+  p.length = 4e-4, p.width = 2e-4;
+  const std::vector<std::pair<int, int>> bonded{{0, 1}};
+  const Assembly pair = make_assembly(p, bonds_between(p, bonded), 1.0, test::kDensity);
+  const HeldDofs along{{1, 0}, {1, 1}, {1, 1}};
+  const ContactParameters contact = linear_contact(0.1);
+  for (const Correction correction : {Correction::normal, Correction::full, Correction::normal_only_stress}) {
+    for (const double relaxation : {1.0, 0.4}) {
+      DeformationParameters d = strains(Scheme::lagged, correction, 1.0, 1, relaxation);
+      const double rigid = critical_step(pair, contact, {}, along).step.value();
+      d.young_modulus *= fixed_point_bound(pair, contact, d) / (2.0 / relaxation - 1.0) / 0.6;
+      EXPECT_NEAR(flip_limit_bound(pair, contact, d, rigid) / flip_limit_step(pair, contact, d, along), 1.0, 1e-9) << static_cast<int>(correction) << ", " << relaxation;
+      EXPECT_NEAR(flip_limit_bound(pair, contact, d, rigid) / rigid, std::sqrt(0.4), 1e-9);  // root of 1 - 0.6
     }
   }
 }
