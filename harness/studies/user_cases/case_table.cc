@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-const json& member(const json& j, const std::string& name) {
+const json& member(const json& j, const char* name) {
   static const json none;
   const auto found = j.find(name);
   return j.is_object() && found != j.end() ? *found : none;
