@@ -199,7 +199,8 @@ TEST_F(OnLammps, StressOfContactsIsInTheVirial) {
                                "compute p all pressure NULL pair bond\ncompute s all reduce sum f_ddem[7] f_ddem[8] f_ddem[9]\n"
                                "compute a all stress/atom NULL pair bond\ncompute sa all reduce sum c_a[1] c_a[2] c_a[4]\n"
                                "compute e all pe/atom pair\ncompute se all reduce sum c_e\n"
-                               "compute l all pair/local eng\ncompute sl all reduce sum c_l\n",
+                               "compute l all pair/local eng\n"  // newer ones want to know what is summed
+                               "if \"$(version) > 20230000\" then \"compute sl all reduce sum c_l inputs local\" else \"compute sl all reduce sum c_l\"\n",
                                "vol c_p[1] c_p[2] c_p[4] c_s[1] c_s[2] c_s[3] c_sa[1] c_sa[2] c_sa[3] evdwl c_se c_sl", edit);
       ASSERT_GT(rows.size(), 10u);
       double largest = 0.0, apart = 0.0, energy = 0.0, energy_apart = 0.0;
