@@ -9,7 +9,7 @@
 
 #include "dem/core/team.h"
 #include "dem/simulation/stepper.h"
-#include "harness/bench/lattice.h"
+#include "harness/bench/assemblies.h"
 #include "harness/measure/median.h"
 
 namespace ddem::harness::bench {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dem/simulation/simulation.h"
-#include "harness/bench/lattice.h"
+#include "harness/bench/assemblies.h"
 
 namespace ddem::harness::bench {
 

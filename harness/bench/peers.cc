@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "harness/bench/assemblies.h"
 #include "harness/bench/kernels.h"
-#include "harness/bench/lattice.h"
 #include "harness/io/errors.h"
 #include "harness/measure/median.h"
 

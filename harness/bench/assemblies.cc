@@ -1,4 +1,4 @@
-#include "harness/bench/lattice.h"
+#include "harness/bench/assemblies.h"
 
 #include <cmath>
 #include <numbers>
