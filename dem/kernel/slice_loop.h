@@ -38,15 +38,15 @@ struct Watch {
   DDEM_INLINE void note_strain(const Triple& e) {
     if constexpr (kWatched) strain = larger(add_square(e.a, add_square(e.b, e.c * e.c)), strain);
   }
-  void tell(double* at, Pack noted) const {
+  void tell(double* most, Pack noted) const {
     if constexpr (kWatched) {
-      double most = 0.0;
-      for (int l = 0; l < kWidth; ++l) most = noted[l] > most ? noted[l] : most;
-      *at = most;
+      double all = *most;
+      for (int l = 0; l < kWidth; ++l) all = noted[l] <= all || all != all ? all : noted[l];  // what is no number stays
+      *most = all;
     }
   }
-  void tell_speed(const StepData& d, int begin) const { tell(d.fastest + begin, speed); }
-  void tell_strain(const StepData& d, int begin) const { tell(d.most_strained + begin, strain); }
+  void tell_speed(const StepData& d) const { tell(d.fastest, speed); }
+  void tell_strain(const StepData& d) const { tell(d.most_strained, strain); }
 };
 
 DDEM_INLINE Triple combine(double wx, const Triple& x, double wy, const Triple& y) {

@@ -50,8 +50,7 @@ struct StepData {
   double elasticity_direct, elasticity_coupling, elasticity_shear;  ///< V_p eps : C_p : eps by components of r eps
   double step_length, direction_weight;
 
-  // Watched runs: the largest speed^2 and r^2 (eps_xx^2 + eps_yy^2 + eps_xy^2) of the discs of a range, at its
-  // first slice.
+  // Watched runs: the largest speed^2 and r^2 (eps_xx^2 + eps_yy^2 + eps_xy^2) of a disc since a thread's own were set to 0.
   double *fastest, *most_strained;
 
   // Nonlinear kinematics, one value a stored half-bond: relative displacement and weighted rotation of the step before,

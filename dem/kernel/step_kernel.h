@@ -237,8 +237,8 @@ struct StepKernel {
           kick(d, p, sum, watch);
           if constexpr (kLagged) relax_strain(d, p, own.strain, strain_from(d, sum), watch);
         });
-    watch.tell_speed(d, begin);
-    if constexpr (kLagged) watch.tell_strain(d, begin);
+    watch.tell_speed(d);
+    if constexpr (kLagged) watch.tell_strain(d);
   }
 
   template <bool kWatched>
@@ -250,7 +250,7 @@ struct StepKernel {
         [&d, &watch](int p, const Own& own, const Sums& sum) DDEM_INLINE_LAMBDA {
           relax_strain(d, p, own.strain, strain_from(d, sum), watch);
         });
-    watch.tell_strain(d, begin);
+    watch.tell_strain(d);
   }
 
   /// f = (V C)^-1 S K C u, and the forces of rigid discs.
@@ -286,7 +286,7 @@ struct StepKernel {
           store_triple(d.strain_next, p, next);
           if constexpr (kPulls) press(d, p, next, d.press_next);
         });
-    watch.tell_strain(d, begin);
+    watch.tell_strain(d);
   }
 
   /// The kick by the forces of rigid discs, less what the strains take off them.
@@ -303,7 +303,7 @@ struct StepKernel {
           if constexpr (kRotation) sum.moment = load(d.rigid_moment + p) - off.moment;
           kick(d, p, sum, watch);
         });
-    watch.tell_speed(d, begin);
+    watch.tell_speed(d);
   }
 
   /// Conjugate gradients for (1 + T) eps = f, preconditioned with V C, in whose inner product 1 + T is symmetric:

@@ -13,6 +13,8 @@ namespace {
 
 /// Between two surveys there shall be about so many steps.
 constexpr double kStepsAhead = 32.0;
+/// With fewer free steps ahead there is a survey.
+constexpr double kFewSteps = 16.0;
 /// In mean radii: the gap up to which pairs are known at first, and at most in linear kinematics.
 constexpr double kFirstReach = 1.0, kLinearReach = 4.0;
 /// In mean radii: a run that has come so far is lost, and its watch over.
@@ -51,7 +53,7 @@ NewContacts::NewContacts(const Assembly& a, const SimulationInput& input, const 
   if (!(longest_reach_ > 0.0)) {
     throw std::invalid_argument("new contacts cannot be watched where a period is shorter than two discs: new_contacts = \"off\", or more discs");
   }
-  reach_ = std::min(kFirstReach * mean_radius(a.packing), longest_reach_);
+  first_reach_ = reach_ = std::min(kFirstReach * mean_radius(a.packing), longest_reach_);
   found_at_.assign(2 * a.size(), 0.0);
   find_pairs(nullptr);
 }
@@ -100,9 +102,20 @@ NewContact NewContacts::state(const Pair& pair, const double* motion) const {
   return c;
 }
 
-void NewContacts::moved(double distance) {
+void NewContacts::moved(double distance, int steps) {
   last_distance_ = distance;
-  path_ += distance;
+  path_ += steps * distance;
+  has_moved_ = true;
+}
+
+int NewContacts::free_steps(const double* motion, double largest_strain) {
+  if (always_ || !has_moved_ || !closed_.empty()) return 0;
+  const double ahead = 2.0 * reach_of(largest_strain);
+  const auto count = [&] { return near_.empty() ? (margin_ - ahead - 2.0 * path_) / (4.0 * last_distance_) : 0.0; };
+  // Another survey pays where most of the last one's margin is used up.
+  if (!(count() >= kFewSteps) && !(2.0 * path_ < 0.5 * margin_)) survey(motion, 0.5 * ahead);
+  const double steps = count();
+  return steps >= kStepsAhead ? static_cast<int>(kStepsAhead) : steps >= 1.0 ? static_cast<int>(steps) : 0;
 }
 
 /// How far a disc has moved at most since the pairs were found, m; not a number if a displacement is none.
@@ -143,9 +156,7 @@ void NewContacts::survey(const double* motion, double reach_of_strains) {
 }
 
 const std::vector<NewContact>& NewContacts::look(const double* motion, const double* strain, double largest_strain) {
-  // n.(r eps).n is at most the norm of r eps.
-  const double reach_of_strains = 2.0 * largest_strain * longest_arm_;
-  if (always_ || !(2.0 * path_ + reach_of_strains < margin_)) survey(motion, reach_of_strains);
+  if (always_ || !is_free(largest_strain)) survey(motion, reach_of(largest_strain));
   closed_.clear();
   const auto add_if_closed = [&](const Pair& pair) {
     NewContact c = state(pair, motion);
@@ -166,7 +177,10 @@ Assembly NewContacts::all_closed() const {
   for (std::size_t c = 0; c < a.bonds.size(); ++c) {
     pairs.push_back({a.bonds.i[c], a.bonds.j[c], a.bonds.length[c] * a.bonds.nx[c], a.bonds.length[c] * a.bonds.ny[c], 0.0});
   }
-  for (const Pair& p : pairs_) pairs.push_back({p.disc_i, p.disc_j, p.dx, p.dy, 0.0});
+  for (const Pair& p : pairs_) {
+    const double touching = a.packing.radius[p.disc_i] + a.packing.radius[p.disc_j];
+    if (nonlinear_ || std::hypot(p.dx, p.dy) - touching <= first_reach_) pairs.push_back({p.disc_i, p.disc_j, p.dx, p.dy, 0.0});
+  }
   a.bonds = bonds_of(a.packing, pairs);
   return a;
 }

@@ -59,7 +59,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   const bool nonlinear = input.contact.kinematics == Kinematics::nonlinear;
   if (input.new_contacts != ContactWatch::off) {
     watch_.emplace(a, input, position_);
-    for (auto* array : {&fastest_, &most_strained_}) array->assign(static_cast<std::size_t>(bonds_.slices), 0.0);
+    size_notes();
   }
   kernels_ = step_kernels({rotation_, nonlinear, coupling(input.deformation), implicit_, !uniform,
                            bonds_.stretch.empty(), pulls_, watch_.has_value()},
@@ -73,6 +73,7 @@ Stepper::Stepper(const Assembly& a, const SimulationInput& input, InstructionSet
   if (rotation_ && nonlinear) turn_bonds();
   start_leapfrog();
   plan_sweeps(input);
+  if (watch_) size_kept();
   begin_step();
 }
 
@@ -144,14 +145,15 @@ void Stepper::prepare_strains(const Assembly& a, const SimulationInput& input) {
 
 /// The strains first, then the motion. Lagged: further evaluations; implicit: source and iterations, or conjugate
 /// gradients.
-void Stepper::begin_step() {
-  if (watch_ && implicit_) recall_contacts();
+void Stepper::begin_step(bool may_be_free) {
+  free_ = may_be_free && finds_free_steps();
+  if (watch_ && implicit_ && !free_) recall_contacts();
   begin_strains();
 }
 
 void Stepper::begin_strains() {
   stages_done_ = 0;
-  in_one_sweep_ = strains_fit_a_sweep();
+  in_one_sweep_ = (!watch_ || free_) && strains_fit_a_sweep();
   if (gradients_) {
     begin_stage(Stage::residual);
   } else if (strain_stages_ == 0 || in_one_sweep_) {
@@ -179,7 +181,7 @@ SliceFunction Stepper::iteration(int iteration) const {
 
 void Stepper::begin_stage(Stage stage) {
   stage_ = stage;
-  if (watch_ && (stage == Stage::evaluate || stage == Stage::motion)) {
+  if (watch_ && !free_ && (stage == Stage::evaluate || stage == Stage::motion)) {
     look_for_contacts();
     if (implicit_ && !contacts_agree()) return begin_strains();
   }
@@ -195,7 +197,7 @@ void Stepper::begin_stage(Stage stage) {
     case Stage::motion:
     case Stage::seams: break;
   }
-  if (range_begin_.back() < bonds_.slices || sweep_ == 0) follow_front();
+  follow_front(stage == Stage::motion ? sweeps_a_step() : 1);
 }
 
 void Stepper::find_fronts() {
@@ -211,11 +213,17 @@ void Stepper::find_fronts() {
   fronts_ = motion_fronts(bonds_, moving);
 }
 
-/// Before every sweep. A new contact passes motion on where no bond does.
-void Stepper::follow_front() {
-  const bool everywhere = fronts_.empty() || (watch_ && !watch_->closed().empty());
-  share(everywhere ? bonds_.slices : fronts_[std::min(sweep_, fronts_.size() - 1)]);
-  ++sweep_;
+/// The front of so many sweeps from here. A new contact passes motion on where no bond does.
+int Stepper::front_after(int sweeps) const {
+  if (fronts_.empty() || (watch_ && !watch_->closed().empty())) return bonds_.slices;
+  return fronts_[std::min(sweep_ + static_cast<std::size_t>(sweeps), fronts_.size()) - 1];
+}
+
+/// Before so many sweeps, or passes of one.
+void Stepper::follow_front(int sweeps) {
+  if (sweeps == 0 || (range_begin_.back() == bonds_.slices && sweep_ > 0)) return;
+  share(front_after(sweeps));
+  sweep_ += static_cast<std::size_t>(sweeps);
 }
 
 void Stepper::share_among(int threads) {
@@ -223,12 +231,15 @@ void Stepper::share_among(int threads) {
   range_begin_.resize(static_cast<std::size_t>(std::min(threads, std::max(1, bonds_.slices))) + 1);
   share(front);
   if (automatic_steps_) steps_at_once_ = worthwhile_steps();
-  if (one_sweep_pays_ && front == bonds_.slices) begin_strains();  // other shares may leave room for its seams, or none
+  if (watch_) size_notes(), size_kept();
+  if (one_sweep_pays_ || watch_) begin_step();  // other shares may leave room for the seams of a sweep, or none
 }
 
 void Stepper::take_steps(int count) {
   steps_due_ = count;
-  if (count > 1) taps_.begin(count);
+  if (count == 1) return;
+  follow_front((count - 1) * sweeps_a_step());
+  taps_.begin(count);
 }
 
 void Stepper::share(int front) {
@@ -249,7 +260,7 @@ void Stepper::finish_strain_stage() {
 }
 
 bool Stepper::finish_stage() {
-  if (stage_ == Stage::motion && (threads() > 1 || watch_)) {
+  if (stage_ == Stage::motion && threads() > 1) {
     stage_ = Stage::seams;  // of the same shares
     return false;
   }
@@ -257,7 +268,11 @@ bool Stepper::finish_stage() {
     finish_strain_stage();
     return false;
   }
-  if (watch_) finish_contacts();
+  if (free_ && !was_free()) {
+    take_back();
+    return false;
+  }
+  if (watch_ && !free_) finish_contacts();
   step_number_ += steps_taken_ = steps_due_;
   // The motion of a lagged step has written the strains to come.
   if (!implicit_ && steps_taken_ % 2 == 1) swap_strains();

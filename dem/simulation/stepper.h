@@ -1,7 +1,9 @@
 #pragma once
 // The arrays of a running simulation and the step that advances them; padded to whole slices, in the solver's order.
 
+#include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "dem/kernel/aligned.h"
@@ -67,6 +69,11 @@ class Stepper {
   std::vector<double> over_radius(const double* values, int stride = 1) const;
 
  private:
+  struct Kept {
+    AlignedVector<double>* array;
+    AlignedVector<double> before;
+  };
+
   void size_arrays(const SimulationInput& input);
   void set_parameters(const Assembly& assembly, const SimulationInput& input);
   void prepare_strains(const Assembly& assembly, const SimulationInput& input);
@@ -77,12 +84,13 @@ class Stepper {
   void impose(double time, AlignedVector<double>& motion) const;
   void bind();
   void swap_strains();
-  void begin_step();
+  void begin_step(bool may_be_free = true);
   void begin_stage(Stage stage);
   void finish_strain_stage();
   void begin_strains();
   void find_fronts();
-  void follow_front();
+  void follow_front(int sweeps);
+  int front_after(int sweeps) const;
   void share(int front);
   StepData relaxed(StepData data, int iteration) const;
   SliceFunction iteration(int iteration) const;
@@ -90,13 +98,15 @@ class Stepper {
   void plan_sweeps(const SimulationInput& input);
   bool strains_fit_a_sweep() const;
   int passes_a_step() const { return in_one_sweep_ ? strain_stages_ + 2 : 2; }
+  int sweeps_a_step() const { return passes_a_step() - 1; }  // that carry the motion a bond further
   int worthwhile_steps() const;
   bool drifts_with_kick() const;
+  StepData noted_by(int thread, StepData data);
   StepData data_of(int level);
   StepData data_of_strains(int stage);
-  void pass(int index, int begin, int end);
-  void sweep(int begin, int end, bool seam_before, bool seam_after);
-  void close_seam(int slice);
+  void pass(int thread, int index, int begin, int end);
+  void sweep(int thread);
+  void close_seam(int thread, int slice);
   void drift(int level, int begin, int end);
   void pull(int level, int begin, int end);
   bool worth_pulling(const SimulationInput& input) const;
@@ -110,7 +120,16 @@ class Stepper {
   void add_strain(const NewContact& contact, double force, double weight, AlignedVector<double>& to) const;
   void push_from_rest(double* vx, double* vy) const;
   void finish_contacts();
-  double largest_of(const AlignedVector<double>& noted) const;
+  void size_notes();
+  double take_largest(AlignedVector<double>& noted) const;
+  double furthest_driven(int steps) const;
+  // Sweeps in which nothing closes, stepper_free.cc.
+  void size_kept();
+  bool finds_free_steps();
+  bool was_free();
+  void keep(int begin, int end);
+  std::pair<std::ptrdiff_t, std::ptrdiff_t> extent(const Kept& kept, int begin, int end) const;
+  void take_back();
 
   SlicedBonds bonds_;
   std::vector<int> position_;
@@ -146,8 +165,11 @@ class Stepper {
   bool in_one_sweep_ = false;  // implicit: strains and motion of the step at hand
   int steps_at_once_ = 1, steps_due_ = 1, steps_taken_ = 1;
   Taps taps_;
-  AlignedVector<double> fastest_, most_strained_;
+  AlignedVector<double> fastest_, most_strained_;  // kLanes a thread
   double largest_strain_ = 0.0;
+  bool free_ = false;         // nothing can close in the steps at hand unless all goes much faster than before, and nothing is looked for
+  int free_steps_ = 0;
+  std::vector<Kept> kept_;    // of free steps: what they change, as it was before
   std::vector<NewContact> in_use_, assumed_;
   std::optional<NewContactCount> count_;
   bool contacts_in_polynomial_ = false, undecided_ = false;

@@ -96,7 +96,7 @@ void Stepper::add_contact_strains() {
     }
   }
   if (stage_ == Stage::source) return;
-  double most = largest_of(most_strained_);
+  double most = take_largest(most_strained_);
   for (const NewContact& c : pushing) {
     for (const int p : {c.i, c.j}) {
       most = std::max(most, square_of_strain(strain_next_.data(), p));
@@ -105,11 +105,26 @@ void Stepper::add_contact_strains() {
   largest_strain_ = std::sqrt(2.0 * most);
 }
 
-/// Every thread that swept has noted at the first of its slices.
-double Stepper::largest_of(const AlignedVector<double>& noted) const {
+/// A line of the cache for each thread.
+void Stepper::size_notes() {
+  for (auto* array : {&fastest_, &most_strained_}) array->assign(static_cast<std::size_t>(threads()) * kLanes, 0.0);
+  data_.fastest = fastest_.data(), data_.most_strained = most_strained_.data();
+}
+
+/// What the threads have noted since the last time; not a number where one of it is none.
+double Stepper::take_largest(AlignedVector<double>& noted) const {
   double most = 0.0;
-  for (int k = 0; k < threads(); ++k) {
-    if (range_begin_[k] < range_begin_[k + 1]) most = std::max(most, noted[range_begin_[k]]);
+  for (double& one : noted) most = one <= most || std::isnan(most) ? most : one, one = 0.0;
+  return most;
+}
+
+/// The longest way of a driven edge in one of the next steps.
+double Stepper::furthest_driven(int steps) const {
+  double most = 0.0;
+  if (!drive_) return most;
+  for (int k = 0; k < steps; ++k) {
+    const double now = static_cast<double>(step_number_ + k) * data_.dt;
+    most = std::max(most, std::abs(drive_->displacement(now + data_.dt) - drive_->displacement(now)));
   }
   return most;
 }
@@ -127,7 +142,7 @@ void Stepper::push_from_rest(double* vx, double* vy) const {
 void Stepper::finish_contacts() {
   in_use_ = watch_->closed();
   if (deformable_ && !implicit_) add_contact_strains();
-  double fastest = largest_of(fastest_);
+  double fastest = take_largest(fastest_);
   const auto push = [&](int p, double fx, double fy) {
     double* u = motion_.data() + static_cast<std::ptrdiff_t>(kQuad) * p;
     vx_[p] += data_.kick_x[p] * fx, vy_[p] += data_.kick_y[p] * fy;
@@ -140,12 +155,7 @@ void Stepper::finish_contacts() {
     push(c.j, -fx, -fy);
     for (const int p : {c.i, c.j}) pull(0, p / kLanes, p / kLanes + 1);
   }
-  double distance = data_.dt * std::sqrt(fastest);
-  if (drive_) {
-    const double now = static_cast<double>(step_number_) * data_.dt;
-    distance = std::max(distance, std::abs(drive_->displacement(now + data_.dt) - drive_->displacement(now)));
-  }
-  watch_->moved(distance);
+  watch_->moved(std::max(data_.dt * std::sqrt(fastest), furthest_driven(1)));
   if (in_use_.empty()) return;
   if (!count_) count_ = NewContactCount{step_number_, 0, 0.0};
   count_->most = std::max(count_->most, in_use_.size());

@@ -51,14 +51,14 @@ void Stepper::size_pulls() {
 
 void Stepper::plan_sweeps(const SimulationInput& input) {
   automatic_steps_ = input.steps_a_sweep == 0;
-  one_sweep_pays_ = implicit_ && !gradients_ && !watch_ && (automatic_steps_ ? array_bytes() >= kSpilled : input.steps_a_sweep > 1);
+  one_sweep_pays_ = implicit_ && !gradients_ && (automatic_steps_ ? array_bytes() >= kSpilled : input.steps_a_sweep > 1);
   steps_at_once_ = automatic_steps_ ? worthwhile_steps() : input.steps_a_sweep;
 }
 
-/// Once the front of the motion has passed all discs. Two seams at the ends of a share must not meet.
+/// Two seams at the ends of a share must not meet.
 bool Stepper::strains_fit_a_sweep() const {
-  if (!one_sweep_pays_ || range_begin_.back() < bonds_.slices) return false;
-  return threads() == 1 || 2 * (strain_stages_ + 1) * reach_ <= bonds_.slices / threads();
+  if (!one_sweep_pays_) return false;
+  return threads() == 1 || 2 * (strain_stages_ + 1) * reach_ <= front_after(1) / threads();
 }
 
 int Stepper::worthwhile_steps() const {
@@ -70,29 +70,33 @@ int Stepper::worthwhile_steps() const {
 }
 
 int Stepper::steps_at_once() const {
-  if ((strain_stages_ > 0 && !in_one_sweep_) || gradients_ || watch_ || range_begin_.back() < bonds_.slices) return 1;
-  if (threads() == 1 || reach_ == 0) return steps_at_once_;
+  if ((strain_stages_ > 0 && !in_one_sweep_) || gradients_ || (watch_ && !free_)) return 1;
+  const int most = watch_ ? std::min(steps_at_once_, free_steps_) : steps_at_once_;
+  if (threads() == 1 || reach_ == 0) return most;
   // Two seams at the ends of a share do not meet: 2 (passes - 1) reach <= share.
-  return std::clamp((bonds_.slices / threads() / reach_ + 2) / (2 * passes_a_step()), 1, steps_at_once_);
+  return std::clamp((range_begin_.back() / threads() / reach_ + 2) / (2 * passes_a_step()), 1, most);
 }
 
-bool Stepper::drifts_with_kick() const {
-  return !watch_ && (threads() == 1 || 2 * reach_ <= range_begin_.back() / threads());
-}
+bool Stepper::drifts_with_kick() const { return threads() == 1 || 2 * reach_ <= range_begin_.back() / threads(); }
 
 void Stepper::advance(int thread) {
   const int begin = range_begin_[thread], end = range_begin_[thread + 1];
   if (begin >= end) return;
   if (stage_ == Stage::seams) {
     if (!drifts_with_kick()) return drift(0, begin, end);
-    if (thread + 1 < threads()) close_seam(end);
+    if (thread + 1 < threads()) close_seam(thread, end);
   } else if (stage_ != Stage::motion) {
-    due_(data_, begin, end);
+    due_(noted_by(thread, data_), begin, end);
   } else if (drifts_with_kick()) {
-    sweep(begin, end, thread > 0, thread + 1 < threads());
+    sweep(thread);
   } else {
-    move_(data_, begin, end);
+    move_(noted_by(thread, data_), begin, end);
   }
+}
+
+StepData Stepper::noted_by(int thread, StepData d) {
+  if (watch_) d.fastest = &fastest_[static_cast<std::size_t>(thread) * kLanes], d.most_strained = &most_strained_[static_cast<std::size_t>(thread) * kLanes];
+  return d;
 }
 
 /// For step `level` of a sweep: lagged strains change their places with every step.
@@ -115,34 +119,38 @@ StepData Stepper::data_of_strains(int stage) {
 }
 
 /// Of a sweep, whose steps are so many passes each: the strains of implicit runs, the kick, the drift.
-void Stepper::pass(int index, int begin, int end) {
+void Stepper::pass(int thread, int index, int begin, int end) {
   const int level = index / passes_a_step(), stage = index % passes_a_step(), strain_stages = passes_a_step() - 2;
   if (stage < strain_stages) {
-    (stage == 0 ? kernels_.source : iteration(stage))(data_of_strains(stage), begin, end);
+    (stage == 0 ? kernels_.source : iteration(stage))(noted_by(thread, data_of_strains(stage)), begin, end);
   } else if (stage == strain_stages) {
-    move_(data_of(level), begin, end);
+    move_(noted_by(thread, data_of(level)), begin, end);
   } else {
     drift(level, begin, end);
   }
 }
 
-/// The slices [begin, end), as many steps as are due. A disc of theirs that discs of another share can have reached by then is
+/// The slices of a thread, as many steps as are due. A disc of theirs that discs of another share can have reached by then is
 /// left to the seam.
-void Stepper::sweep(int begin, int end, bool seam_before, bool seam_after) {
+void Stepper::sweep(int thread) {
+  const int begin = range_begin_[thread], end = range_begin_[thread + 1];
+  const bool seam_before = thread > 0, seam_after = thread + 1 < threads();
   const int passes = passes_a_step() * steps_due_;
   for (int front = begin + kBlock; front - kBlock < end + (passes - 1) * reach_; front += kBlock) {
     for (int index = 0; index < passes; ++index) {
       const int lag = index * reach_, at = front - lag;
       if (at <= begin) break;
       const int from = std::max(at - kBlock, seam_before ? begin + lag : begin), to = std::min(at, seam_after ? end - lag : end);
-      if (from < to) pass(index, from, to);
+      if (from >= to) continue;
+      if (free_ && index == 0) keep(from, to);
+      pass(thread, index, from, to);
     }
   }
 }
 
 /// What the sweeps on both sides of a slice have left, which grows with every pass.
-void Stepper::close_seam(int slice) {
-  for (int index = 1; index < passes_a_step() * steps_due_; ++index) pass(index, slice - index * reach_, slice + index * reach_);
+void Stepper::close_seam(int thread, int slice) {
+  for (int index = 1; index < passes_a_step() * steps_due_; ++index) pass(thread, index, slice - index * reach_, slice + index * reach_);
 }
 
 /// After step `level` of a sweep: displacements, and those of a driven edge at t_{n+1}.

@@ -13,6 +13,7 @@
 #include "dem/simulation/simulation.h"
 #include "dem/spectra/spectra.h"
 #include "tests/support/assemblies.h"
+#include "tests/support/sanitized.h"
 
 namespace ddem {
 namespace {
@@ -241,6 +242,72 @@ TEST(NewContacts, TheBoundMissesNone) {
   }
 }
 
+/// That a run which looks at every pair in every step has the same bits with sweeps of so many steps.
+void expect_none_missed(const Assembly& a, SimulationInput in, int threads, int steps) {
+  in.energy_samples = 0;  // each would end a sweep
+  in.new_contacts = ContactWatch::every_step;
+  const SimulationResult always = simulate(a, in);
+  in.new_contacts = ContactWatch::bound;
+  in.threads = threads, in.steps_a_sweep = steps;
+  const SimulationResult several = simulate(a, in);
+  SCOPED_TRACE(testing::Message() << a.size() << " discs, scheme " << static_cast<int>(in.deformation.scheme) << ", k_t/k_n "
+                                  << in.contact.stiffness_ratio << ", threads " << threads << ", steps a sweep " << steps);
+  ASSERT_FALSE(always.breakdown);
+  ASSERT_EQ(several.new_contacts.has_value(), always.new_contacts.has_value());
+  if (always.new_contacts) {
+    EXPECT_EQ(several.new_contacts->first_step, always.new_contacts->first_step);
+    EXPECT_EQ(several.new_contacts->most, always.new_contacts->most);
+    EXPECT_EQ(several.new_contacts->critical_time_step, always.new_contacts->critical_time_step);
+  }
+  EXPECT_EQ(several.signals.ux, always.signals.ux);
+  EXPECT_EQ(several.final_state.ux, always.final_state.ux);
+  EXPECT_EQ(several.final_state.vy, always.final_state.vy);
+  EXPECT_EQ(several.final_state.omega, always.final_state.omega);
+}
+
+/// Where nothing can close unless all goes much faster, a sweep takes several steps; where it did go faster, it is taken back.
+TEST(NewContacts, SweepsOfSeveralStepsMissNone) {
+  const Assembly a = test::random_free_strip();
+  for (const Scheme scheme : {Scheme::none, Scheme::lagged, Scheme::implicit}) {
+    for (const double stiffness_ratio : {0.0, 0.5}) {
+      for (const double speed : {50.0, 500.0}) {
+        SimulationInput in = shaken(a, scheme, speed, Kinematics::linear);
+        in.contact.stiffness_ratio = stiffness_ratio;
+        in.steps = test::kSanitized ? 60 : 150;
+        for (const auto& [threads, steps] : {std::pair(1, 1), std::pair(1, 16), std::pair(3, 5)}) expect_none_missed(a, in, threads, steps);
+      }
+    }
+  }
+}
+
+/// Discs that start from rest: with a constant acceleration a gap of g times the first step closes in sqrt(g) steps, and is free for g/4.
+TEST(NewContacts, ASweepInWhichAGapClosesIsTakenBack) {
+  const Assembly a = three_discs();
+  for (const Scheme scheme : {Scheme::none, Scheme::lagged, Scheme::implicit}) {
+    for (const double stiffness_ratio : {0.0, 0.5}) {
+      for (double fraction = 0.022; fraction < 0.04; fraction += 0.001) {
+        SimulationInput in = three_disc_input(scheme, 0.02, fraction, 1.0);
+        in.contact.stiffness_ratio = stiffness_ratio;
+        expect_none_missed(a, in, 1, 16);
+      }
+    }
+  }
+}
+
+/// The same of an edge that is driven.
+TEST(NewContacts, ASweepInWhichADrivenEdgeClosesAGapIsTakenBack) {
+  const Assembly a = three_discs();
+  for (const Scheme scheme : {Scheme::none, Scheme::lagged, Scheme::implicit}) {
+    for (double first_way = kGap / 120.0; first_way < kGap / 50.0; first_way *= 1.1) {
+      SimulationInput in = three_disc_input(scheme, 0.25, 0.02, 1.0);
+      in.initial.ux = {};
+      const double duration = 100.0;  // steps
+      in.drive = EdgeDrive{{2}, Direction::x, -first_way * std::pow(duration / std::numbers::pi, 2), duration * in.time_step};
+      expect_none_missed(a, in, 1, 16);
+    }
+  }
+}
+
 TEST(NewContacts, ARunThatDivergesEndsAsOneThatDoesNotWatch) {
   // Displacements grow by orders of magnitude in a step: pairs that are watched must not, nor may their search.
   const Assembly a = test::random_free_strip();
@@ -249,8 +316,8 @@ TEST(NewContacts, ARunThatDivergesEndsAsOneThatDoesNotWatch) {
     in.time_step *= 1e3;
     in.steps = 2000;
     in.new_contacts = ContactWatch::bound;
-    for (const int threads : {1, 2}) {
-      in.threads = threads;
+    for (const auto& [threads, steps] : {std::pair(1, 0), std::pair(2, 0), std::pair(1, 16)}) {
+      in.threads = threads, in.steps_a_sweep = steps;
       const auto breakdown = simulate(a, in).breakdown;
       ASSERT_TRUE(breakdown);
       EXPECT_EQ(breakdown->cause, Breakdown::Cause::diverged);
