@@ -1,5 +1,5 @@
 #pragma once
-// What is timed: a lattice of equal discs, and the contact laws and schemes by name.
+// What is timed: a lattice of equal discs or a random packing, and the contact laws and schemes by name.
 
 #include <array>
 #include <string>
@@ -11,6 +11,11 @@ namespace ddem::harness::bench {
 
 inline constexpr double kRadius = 0.132e-3, kDensity = 2000.0, kNormalStiffness = 1e10, kShearRatio = 0.25;
 inline constexpr double kSoftness = 0.25, kDiscPoisson = 0.3;  ///< k_n/E_p, nu_p
+
+enum class Arrangement { lattice, random };
+
+/// "lattice", "random".
+std::string name_of(Arrangement arrangement);
 
 struct Law {
   std::string name;
@@ -26,11 +31,20 @@ Law deformable(Scheme scheme, bool shear = true, bool per_bond = false);
 /// Touching discs, close-packed rows along x, so many a row; `periodic` in both directions.
 ddem::Assembly lattice(int columns, int rows, bool periodic = false, double radius = kRadius);
 
+/// The random strip of the paper, or one five times as long as wide: discs as large on average as those of the lattice, 5.8 bonds
+/// each. Jammed first where the user's cache has not its cell.
+ddem::Assembly random_strip(std::size_t discs);
+
+/// About so many discs.
+ddem::Assembly strip_of(Arrangement arrangement, std::size_t discs);
+
 /// Columns and rows of about so many discs, five times as long as wide.
 std::array<int, 2> lattice_size(std::size_t discs);
 
 /// A step of this fraction of the critical one without shear stiffness, 2/sqrt(6) sqrt(m/k_n) (theory section 3).
 double lattice_step(double fraction);
+/// The same of the lightest disc.
+double step_of(const ddem::Assembly& assembly, double fraction);
 
 /// A smooth displacement everywhere: arithmetic on zeros or subnormal numbers takes other times.
 ddem::InitialState smooth_state(const ddem::Assembly& assembly);

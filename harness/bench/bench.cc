@@ -34,6 +34,7 @@ void measure_precision(const BenchPlan& plan, BenchResults& results, const std::
 
 Json kernel_json(const KernelTime& k) {
   return {{"law", k.law},
+          {"packing", name_of(k.arrangement)},
           {"stiffness", k.per_bond_stiffness ? "per bond" : "uniform"},
           {"discs", k.discs},
           {"bonds", k.bonds},

@@ -50,9 +50,9 @@ reports::Table kernel_table(const std::vector<KernelTime>& kernels) {
   reports::Table t;
   t.caption = "Median of repetitions in random order (Google Benchmark) at 0.3 of the critical step; setting up is not counted. Over DEM (of deformable discs "
               "with k_t = 0: over DEM with k_t = 0): ratio of the medians.";
-  t.columns = {{"law"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best", "ns", 3}, {"over DEM", "", 3}, {"arrays", "bytes a bond", 3}};
+  t.columns = {{"law"}, {"packing"}, {"stiffness"}, {"discs", "", 7}, {"threads"}, {"time", "ns per bond and step", 3}, {"best", "ns", 3}, {"over DEM", "", 3}, {"arrays", "bytes a bond", 3}};
   for (const KernelTime& k : kernels) {
-    t.rows.push_back({k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem, k.bytes_per_bond});
+    t.rows.push_back({k.law, name_of(k.arrangement), k.per_bond_stiffness ? "per bond" : "uniform", k.discs, k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem, k.bytes_per_bond});
   }
   return t;
 }

@@ -28,11 +28,12 @@ std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly
   std::vector<Competitor> all;
   constexpr std::size_t kNoShear = 0, kShear = 1;
   for (const bool per_bond : {false, true}) {
+    if (per_bond && !plan.per_bond) break;
     all.push_back({rigid(false, per_bond), per_bond, kShear, {}});
     all.push_back({rigid(true, per_bond), per_bond, kShear, {}});
-    if (!plan.deformable) break;
+    if (!plan.deformable) continue;
     all.push_back({deformable(Scheme::lagged, true, per_bond), per_bond, kShear, {}});
-    if (!per_bond || plan.implicit_per_bond) all.push_back({deformable(Scheme::implicit, true, per_bond), per_bond, kShear, {}});
+    all.push_back({deformable(Scheme::implicit, true, per_bond), per_bond, kShear, {}});
   }
   if (plan.deformable) {
     for (const Scheme scheme : {Scheme::lagged, Scheme::implicit}) all.push_back({deformable(scheme, false), false, kNoShear, {}});
@@ -42,7 +43,8 @@ std::vector<Competitor> competitors(const KernelPlan& plan, const ddem::Assembly
     in.contact = c.law.contact;
     in.deformation = c.law.deformation;
     in.initial = smooth_state(assembly);
-    in.time_step = lattice_step(kKernelStepFraction);
+    if (in.deformation.active()) in.new_contacts = ContactWatch::bound;  // as in every run
+    in.time_step = step_of(assembly, kKernelStepFraction);
     c.stepper = std::make_unique<Stepper>(assembly, in, best_instruction_set());
   }
   return all;
@@ -57,7 +59,8 @@ void take_steps(Stepper& stepper, long steps, Team& team) {
     while (left > 0) {
       stepper.advance(thread);
       team.meet(thread, [&] {
-        left -= stepper.finish_stage() ? stepper.steps_taken() : 0;
+        if (!stepper.finish_stage()) return;
+        left -= stepper.steps_taken();
         plan_sweep();
       });
     }
@@ -109,21 +112,27 @@ std::vector<std::vector<double>> measure(std::vector<Competitor>& all, const Ker
 std::vector<KernelPlan> kernel_plans() {
   std::vector<int> threads{1};
   if (std::thread::hardware_concurrency() > 1) threads.push_back(2);
-  return {{682, 1500, 21, true, true, threads}, {100000, 16, 15, true, false, threads}, {1000000, 16, 5, false, false, threads}};
+  std::vector<KernelPlan> plans;
+  for (const Arrangement arrangement : {Arrangement::lattice, Arrangement::random}) {
+    plans.push_back({arrangement, 682, 1500, 21, true, true, threads});
+    plans.push_back({arrangement, 10000, 100, 15, true, false, threads});
+    plans.push_back({arrangement, 100000, 16, 15, true, false, threads});
+    plans.push_back({arrangement, 1000000, 16, 5, true, false, threads});
+  }
+  return plans;
 }
 
 std::vector<KernelTime> time_kernels(const std::vector<KernelPlan>& plans, const std::function<void()>& progress) {
   std::vector<KernelTime> times;
   for (const KernelPlan& plan : plans) {
-    const auto [columns, rows] = lattice_size(plan.discs);
-    const ddem::Assembly assembly = lattice(columns, rows);
+    const ddem::Assembly assembly = strip_of(plan.arrangement, plan.discs);
     std::vector<Competitor> all = competitors(plan, assembly);
     const double bond_steps = static_cast<double>(assembly.bonds.size()) * static_cast<double>(plan.steps);
     for (const int threads : plan.threads) {
       const auto seconds = measure(all, plan, threads);
       for (std::size_t c = 0; c < all.size(); ++c) {
         const double time = median(seconds[c]);
-        times.push_back({all[c].law.name, all[c].per_bond, assembly.size(), assembly.bonds.size(), threads, 1e9 * time / bond_steps,
+        times.push_back({all[c].law.name, plan.arrangement, all[c].per_bond, assembly.size(), assembly.bonds.size(), threads, 1e9 * time / bond_steps,
                          1e9 * *std::min_element(seconds[c].begin(), seconds[c].end()) / bond_steps, time / median(seconds[all[c].reference]),
                          plan.rounds, static_cast<double>(all[c].stepper->array_bytes()) / static_cast<double>(assembly.bonds.size())});
       }

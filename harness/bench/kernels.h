@@ -7,31 +7,36 @@
 #include <string>
 #include <vector>
 
+#include "harness/bench/assemblies.h"
+
 namespace ddem::harness::bench {
 
 struct KernelTime {
   std::string law;
+  Arrangement arrangement = Arrangement::lattice;
   bool per_bond_stiffness = false;
   std::size_t discs = 0, bonds = 0;
   int threads = 1;
   double nanoseconds_per_bond_step = 0.0;  ///< median
   double best = 0.0;                       ///< the fastest repetition, ns per bond and step
-  /// Ratio of medians: times DEM with uniform stiffness and shear, of a deformable law without shear times DEM without.
+  /// Ratio of medians of the same discs: times DEM with uniform stiffness and shear, of a deformable law without shear times DEM
+  /// without.
   double over_dem = 0.0;
   int rounds = 0;
   double bytes_per_bond = 0.0;  ///< of the solver's arrays
 };
 
 struct KernelPlan {
+  Arrangement arrangement = Arrangement::lattice;
   std::size_t discs = 0;
   long steps = 0;  ///< a round
   int rounds = 0;
-  bool deformable = true;           ///< lagged and implicit strains
-  bool implicit_per_bond = true;    ///< setting up implicit strains of many discs takes seconds
+  bool deformable = true;   ///< lagged and implicit strains
+  bool per_bond = true;     ///< those with stiffnesses of their own as well
   std::vector<int> threads;
 };
 
-/// 682, 1e5 and 1e6 discs (there plain DEM alone); two threads where the machine has them.
+/// 682, 1e4, 1e5 and 1e6 discs, in a lattice and at random; two threads where the machine has them.
 std::vector<KernelPlan> kernel_plans();
 
 /// `progress` is called after each plan.

@@ -14,13 +14,13 @@ reports::Series series_of(const std::string& law) {
   return s;
 }
 
-reports::Plot panel(const std::vector<KernelTime>& kernels, const Bandwidth& bandwidth) {
-  reports::Plot plot{.title = bandwidth.threads == 1 ? "one thread" : fmt::format("{} threads", bandwidth.threads),
+reports::Plot panel(const std::vector<KernelTime>& kernels, Arrangement arrangement, const Bandwidth& bandwidth) {
+  reports::Plot plot{.title = name_of(arrangement) + (bandwidth.threads == 1 ? ", one thread" : fmt::format(", {} threads", bandwidth.threads)),
                      .x = {.label = "bond-steps a byte of the solver's arrays", .scale = reports::Scale::log},
                      .y = {.label = "bond-steps a nanosecond", .scale = reports::Scale::log}};
   reports::Series roof{.name = "memory (STREAM triad)", .color = reports::Color::black};
   for (const KernelTime& k : kernels) {
-    if (k.threads != bandwidth.threads || k.per_bond_stiffness) continue;
+    if (k.arrangement != arrangement || k.threads != bandwidth.threads || k.per_bond_stiffness) continue;
     auto series = std::find_if(plot.series.begin(), plot.series.end(), [&](const auto& s) { return s.name == k.law; });
     if (series == plot.series.end()) series = plot.series.insert(series, series_of(k.law));
     series->x.push_back(1.0 / k.bytes_per_bond);
@@ -45,8 +45,10 @@ reports::Figure roofline_figure(const std::vector<KernelTime>& kernels, const st
                                     "several steps over what is in cache are. Work is counted in steps of bonds, not in operations: laws that do more a "
                                     "bond are lower."};
   for (const Bandwidth& bandwidth : bandwidths) {
-    reports::Plot plot = panel(kernels, bandwidth);
-    if (!plot.series.empty()) figure.panels.emplace_back(std::move(plot));
+    for (const Arrangement arrangement : {Arrangement::lattice, Arrangement::random}) {
+      reports::Plot plot = panel(kernels, arrangement, bandwidth);
+      if (!plot.series.empty()) figure.panels.emplace_back(std::move(plot));
+    }
   }
   return figure;
 }

@@ -15,7 +15,7 @@ struct Bandwidth {
   double gb_per_s = 0.0;
 };
 
-/// A panel for each number of threads whose bandwidth is given and that kernels were timed with: bond-steps a nanosecond over
+/// A panel for each number of threads whose bandwidth is given and each arrangement that kernels were timed with: bond-steps a nanosecond over
 /// bond-steps a byte of the solver's arrays, a line for each law of uniform stiffness from few discs to many; and the roof, which no kernel
 /// passes that takes its arrays from memory in every step.
 reports::Figure roofline_figure(const std::vector<KernelTime>& kernels, const std::vector<Bandwidth>& bandwidths);

@@ -23,9 +23,9 @@ struct BenchOptions {
 
 void print_kernels(const std::vector<bench::KernelTime>& kernels) {
   if (kernels.empty()) return;
-  fmt::print("\n{:<17} {:<9} {:>8} {:>8} {:>12} {:>8} {:>9}\n", "law", "stiffness", "discs", "threads", "ns/bond/step", "best", "over DEM");
+  fmt::print("\n{:<17} {:<8} {:<9} {:>8} {:>8} {:>12} {:>8} {:>9}\n", "law", "packing", "stiffness", "discs", "threads", "ns/bond/step", "best", "over DEM");
   for (const bench::KernelTime& k : kernels) {
-    fmt::print("{:<17} {:<9} {:>8} {:>8} {:>12.2f} {:>8.2f} {:>9.2f}\n", k.law, k.per_bond_stiffness ? "per bond" : "uniform", k.discs,
+    fmt::print("{:<17} {:<8} {:<9} {:>8} {:>8} {:>12.2f} {:>8.2f} {:>9.2f}\n", k.law, bench::name_of(k.arrangement), k.per_bond_stiffness ? "per bond" : "uniform", k.discs,
                k.threads, k.nanoseconds_per_bond_step, k.best, k.over_dem);
   }
 }
@@ -110,10 +110,10 @@ int run(const BenchOptions& o) {
 void add_bench_command(CLI::App& app, Action& action) {
   auto o = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
-  command->footer("kernels         every contact law and scheme, 682, 1e5 and 1e6 discs, and the finite elements; one and two threads\n"
+  command->footer("kernels         every contact law and scheme, 682 to 1e6 discs, in a lattice and at random, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
                   "peers           LAMMPS (lmp on the PATH) and Yade (yade) on the same discs, where they are installed (Debian: lammps, yade)\n"
-                  "Without --only: all of it, in one to three minutes. Times are those of a machine that does nothing else.");
+                  "Without --only: all of it, in some six minutes. Times are those of a machine that does nothing else.");
   command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "peers"}));
   CLI::Option* output = command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
   command->add_flag("--force", o->force, "replace files, too, that ddem did not write")->needs(output);

@@ -157,7 +157,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Load{"dem", "counted_steps", 38.5}, Load{"dem_shear", "counted_steps", 57.7},
                     Load{"dem_shear_per_bond", "counted_steps", 59.6}, Load{"lagged", "counted_steps", 67.7},
                     Load{"lagged_shear", "counted_steps", 104.0}, Load{"implicit", "counted_steps", 168.6},
-                    Load{"implicit_shear", "counted_steps", 252.0}, Load{"wave", "counted_wave", 21.3}),
+                    Load{"implicit_shear", "counted_steps", 252.0}, Load{"dem_shear_random", "counted_steps", 60.1},
+                    Load{"lagged_shear_random", "counted_steps", 115.5}, Load{"implicit_shear_random", "counted_steps", 272.4},
+                    Load{"wave", "counted_wave", 21.3}),
     [](const auto& p) { return std::string(p.param.law); });
 
 }  // namespace

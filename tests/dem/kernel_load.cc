@@ -2,9 +2,10 @@
 // bond-steps done, or the steps of the march.
 //
 // dem, dem_shear, dem_shear_per_bond, lagged, lagged_shear, implicit, implicit_shear: 200 steps of the kernels on a lattice of
-// 682 discs, all moving.
+// 682 discs, all moving; with _random, on the random strip of as many, and new contacts are watched for.
 // wave: a released column in the random strip of 682 discs, exact in time at ten discs for 7 us, every fifth of a step.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -30,14 +31,15 @@ extern "C" [[gnu::noinline]] long counted_wave(const Assembly& a, const Simulati
   return simulate_exact(a, in, sampling).steps_done;
 }
 
-void kernels(const ContactParameters& contact, const DeformationParameters& deformation) {
-  const Assembly a = test::hexagonal_assembly({.columns = 62, .rows = 11, .radius = 1.3e-4});
+void kernels(const ContactParameters& contact, const DeformationParameters& deformation, bool random) {
+  const Assembly a = random ? test::random_free_strip() : test::hexagonal_assembly({.columns = 62, .rows = 11, .radius = 1.3e-4});
   SimulationInput in;
+  if (random && deformation.active()) in.new_contacts = ContactWatch::bound;
   in.contact = contact;
   in.deformation = deformation;
   in.initial.ux = test::Noise(1).vector(a.size(), 1e-9);
   in.initial.uy = test::Noise(2).vector(a.size(), 1e-9);
-  in.time_step = 0.3 * 2.0 / std::sqrt(6.0) * std::sqrt(a.mass[0] / test::kNormalStiffness);
+  in.time_step = 0.3 * 2.0 / std::sqrt(6.0) * std::sqrt(*std::min_element(a.mass.begin(), a.mass.end()) / test::kNormalStiffness);
   Stepper stepper(a, in, best_instruction_set());
   counted_steps(stepper);
   std::cout << static_cast<double>(a.bonds.size()) * static_cast<double>(kSteps) << "\n";
@@ -51,7 +53,9 @@ void wave() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string law = argc == 2 ? argv[1] : "";
+  const std::string load = argc == 2 ? argv[1] : "", suffix = "_random";
+  const bool random = load.ends_with(suffix);
+  const std::string law = random ? load.substr(0, load.size() - suffix.size()) : load;
   const double k_n = test::kNormalStiffness;
   const DeformationParameters soft{Scheme::implicit, Correction::full, 4.0 * k_n, 0.3, Plane::stress};
   DeformationParameters lagged = soft;
@@ -67,9 +71,9 @@ int main(int argc, char** argv) {
   if (law == "wave") {
     wave();
   } else if (const auto found = laws.find(law); found != laws.end()) {
-    kernels(found->second.first, found->second.second);
+    kernels(found->second.first, found->second.second, random);
   } else {
-    std::cerr << "kernel_load dem|dem_shear|dem_shear_per_bond|lagged|lagged_shear|implicit|implicit_shear|wave\n";
+    std::cerr << "kernel_load dem|dem_shear|dem_shear_per_bond|lagged|lagged_shear|implicit|implicit_shear, or with _random; wave\n";
     return 2;
   }
   return 0;

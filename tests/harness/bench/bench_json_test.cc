@@ -12,7 +12,7 @@ namespace {
 
 BenchPlan small_plan() {
   BenchPlan plan;
-  plan.kernel_plans = {{120, 10, 2, false, false, {1}}};
+  plan.kernel_plans = {{Arrangement::lattice, 120, 10, 2, false, false, {1}}};
   plan.fem_kernels = {{{4, {16, 2}}}, {1, 2}, 5e-6, 1, 2};
   plan.discs = {{16}, {0.5}, 0.0};
   plan.fem_meshes = {{2, {33, 1}}};

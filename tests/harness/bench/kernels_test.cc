@@ -25,7 +25,7 @@ TEST(Median, OfOddAndEvenNumbersOfValues) {
 
 TEST(Kernels, EveryLawIsTimedOnceForEachNumberOfThreads) {
   int heard = 0;
-  const auto times = time_kernels({{240, 30, 3, true, true, {1, 2}}}, [&] { ++heard; });
+  const auto times = time_kernels({{Arrangement::lattice, 240, 30, 3, true, true, {1, 2}}}, [&] { ++heard; });
   EXPECT_EQ(heard, 1);
   std::set<std::tuple<std::string, bool, int>> seen;
   for (const KernelTime& k : times) {
@@ -47,7 +47,7 @@ TEST(Kernels, EveryLawIsTimedOnceForEachNumberOfThreads) {
 
 TEST(Kernels, DeformableOnesAreComparedWithDemOfAsMuchShear) {
   std::map<std::string, KernelTime> times;
-  for (const KernelTime& k : time_kernels({{240, 10, 1, true, false, {1}}}, [] {})) {
+  for (const KernelTime& k : time_kernels({{Arrangement::lattice, 240, 10, 1, true, false, {1}}}, [] {})) {
     if (!k.per_bond_stiffness) times[k.law] = k;
   }
   for (const std::string law : {"lagged", "implicit"}) {  // of one round, the ratio of the times
@@ -59,10 +59,22 @@ TEST(Kernels, DeformableOnesAreComparedWithDemOfAsMuchShear) {
 }
 
 TEST(Kernels, RigidDiscsAlone) {
-  const auto times = time_kernels({{240, 10, 1, false, false, {1}}}, [] {});
+  const auto times = time_kernels({{Arrangement::lattice, 240, 10, 1, false, false, {1}}}, [] {});
   ASSERT_EQ(times.size(), 2u);
   EXPECT_EQ(times[0].law, "DEM, k_t = 0");
   EXPECT_EQ(times[1].law, "DEM");
+}
+
+TEST(Kernels, OfARandomPackingAsWell) {
+  const auto times = time_kernels({{Arrangement::random, 682, 2, 1, true, false, {1}}}, [] {});
+  ASSERT_EQ(times.size(), 6u);
+  for (const KernelTime& k : times) {
+    EXPECT_EQ(k.arrangement, Arrangement::random);
+    EXPECT_EQ(k.discs, 682u);
+    // 5.8 inside; of 682 discs a quarter stand at free edges, which have about two bonds fewer.
+    EXPECT_NEAR(2.0 * static_cast<double>(k.bonds) / static_cast<double>(k.discs), 5.8 - 0.25 * 2.0, 0.2);
+    EXPECT_GT(k.nanoseconds_per_bond_step, 0.0);
+  }
 }
 
 TEST(Triad, IsBetweenADiskAndACache) {

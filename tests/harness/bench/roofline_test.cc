@@ -19,11 +19,13 @@ KernelTime timed(const char* law, int threads, double nanoseconds, double bytes)
 TEST(Roofline, HasALineForEachLawUnderThatOfTheMemory) {
   KernelTime per_bond = timed("DEM", 1, 3.0, 96.0);
   per_bond.per_bond_stiffness = true;  // not drawn
+  KernelTime random = timed("DEM", 1, 3.0, 80.0);
+  random.arrangement = Arrangement::random;
   const std::vector<KernelTime> kernels{timed("DEM", 1, 2.0, 64.0), timed("lagged", 1, 4.0, 100.0), timed("DEM", 1, 2.5, 64.0),
-                                        timed("DEM", 2, 1.0, 64.0), per_bond};
+                                        timed("DEM", 2, 1.0, 64.0), per_bond, random};
   const reports::Figure figure = roofline_figure(kernels, {{1, 32.0}, {2, 40.0}, {4, 50.0}});
   EXPECT_NO_THROW(reports::require_valid(figure));
-  ASSERT_EQ(figure.panels.size(), 2u);  // nothing was timed with four threads
+  ASSERT_EQ(figure.panels.size(), 3u);  // nothing was timed with four threads
   const auto& one = std::get<reports::Plot>(figure.panels[0]);
   ASSERT_EQ(one.series.size(), 3u);
   EXPECT_EQ(one.series[0].name, "DEM");
@@ -36,7 +38,8 @@ TEST(Roofline, HasALineForEachLawUnderThatOfTheMemory) {
   EXPECT_GT(roof.x[1], 1.0 / 64.0);
   // 32 GB/s of 64 bytes a bond: half a bond a nanosecond.
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(roof.y[k] / roof.x[k], 0.5 * 64.0, 1e-9);
-  EXPECT_EQ(std::get<reports::Plot>(figure.panels[1]).series[0].y, std::vector<double>{1.0});
+  EXPECT_EQ(std::get<reports::Plot>(figure.panels[1]).series[0].y, std::vector<double>{1.0 / 3.0});
+  EXPECT_EQ(std::get<reports::Plot>(figure.panels[2]).series[0].y, std::vector<double>{1.0});
 }
 
 }  // namespace
