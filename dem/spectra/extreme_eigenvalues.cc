@@ -25,7 +25,7 @@ constexpr Eigen::Index kDense = 200, kVectors = 24;
 
 Eigen::MatrixXd dense(const LinearOperator& op) {
   Eigen::MatrixXd m(op.size, op.size);
-  for (Eigen::Index k = 0; k < op.size; ++k) m.col(k) = op.apply(Eigen::VectorXd::Unit(op.size, k));
+  for (Eigen::Index k = 0; k < op.size; ++k) op.apply(Eigen::VectorXd::Unit(op.size, k), m.col(k));
   return m;
 }
 
@@ -64,7 +64,7 @@ std::optional<EigenPair> outstanding_eigenvector(const LinearOperator& op, doubl
   for (Eigen::Index k = 0; k < op.size; ++k) basis(k, 0) = static_cast<double>(generator() >> 11) * 0x1.0p-52 - 1.0;
   basis.col(0).normalize();
   for (Eigen::Index m = 1; m <= most; ++m) {
-    Eigen::VectorXd next = op.apply(basis.col(m - 1));
+    Eigen::VectorXd next = op * basis.col(m - 1);
     for (int pass = 0; pass < 2; ++pass) {  // twice is enough
       const Eigen::VectorXd overlap = basis.leftCols(m).transpose() * next;
       next -= basis.leftCols(m) * overlap;

@@ -10,13 +10,21 @@ namespace ddem {
 
 struct LinearOperator {
   using Scalar = double;
+  using In = const Eigen::Ref<const Eigen::VectorXd>&;
+  using Out = Eigen::Ref<Eigen::VectorXd>;
   Eigen::Index size;
-  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> apply;
+  std::function<void(In x, Out y)> apply;  ///< y = A x; x and y are apart
 
+  Eigen::VectorXd operator*(In x) const {
+    Eigen::VectorXd y(size);
+    apply(x, y);
+    return y;
+  }
+  // What Spectra asks for.
   Eigen::Index rows() const { return size; }
   Eigen::Index cols() const { return size; }
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
+    apply(Eigen::Map<const Eigen::VectorXd>(x, size), Eigen::Map<Eigen::VectorXd>(y, size));
   }
 };
 

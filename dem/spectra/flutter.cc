@@ -16,9 +16,9 @@ constexpr double kOutside = 1.05;
 
 /// 3000 steps of leapfrog from rest, for the eigenvector's displacements scaled by the root of the masses.
 Eigen::VectorXd propagate(const LinearOperator& a, double dt, const Eigen::VectorXd& start) {
-  Eigen::VectorXd before = start, now = start - 0.5 * dt * dt * a.apply(start);
+  Eigen::VectorXd before = start, now = start - 0.5 * dt * dt * (a * start);
   for (int k = 1; k < kSteps; ++k) {
-    Eigen::VectorXd next = 2.0 * now - before - dt * dt * a.apply(now);
+    Eigen::VectorXd next = 2.0 * now - before - dt * dt * (a * now);
     before = std::move(now);
     now = std::move(next);
   }
@@ -28,8 +28,8 @@ Eigen::VectorXd propagate(const LinearOperator& a, double dt, const Eigen::Vecto
 /// The root of the Rayleigh quotient v^H A v / v^H v, with a positive imaginary part.
 std::complex<double> frequency_of(const LinearOperator& a, const Eigen::VectorXcd& v) {
   Eigen::VectorXcd av(v.size());
-  av.real() = a.apply(v.real());
-  av.imag() = a.apply(v.imag());
+  av.real() = a * v.real();
+  av.imag() = a * v.imag();
   const std::complex<double> omega = std::sqrt(v.dot(av) / v.squaredNorm());
   return {omega.real(), std::abs(omega.imag())};
 }
@@ -48,10 +48,8 @@ FlutterSearch find_flutter(const Assembly& assembly, const ContactParameters& co
 
   const Eigen::VectorXd s = mass_scaling(op, held);
   const SchemeStiffness stiffness = SchemeStiffness::converged(op);
-  const LinearOperator a{s.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-                           return s.cwiseProduct(stiffness.apply(s.cwiseProduct(x)));
-                         }};
-  const LinearOperator steps{s.size(), [&](const Eigen::VectorXd& x) { return propagate(a, dt, x); }};
+  const LinearOperator a{s.size(), [&](LinearOperator::In x, LinearOperator::Out y) { y = s.cwiseProduct(stiffness.apply(s.cwiseProduct(x))); }};
+  const LinearOperator steps{s.size(), [&](LinearOperator::In x, LinearOperator::Out y) { y = propagate(a, dt, x); }};
   if (const auto pair = outstanding_eigenvector(steps, kOutside)) search.frequency = frequency_of(a, pair->vector);
   return search;
 }

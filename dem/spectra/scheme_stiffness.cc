@@ -105,7 +105,7 @@ StrainIteration::StrainIteration(const Operators& op) : factor_(op.strain_stiffn
 }
 
 double spectral_radius(const StrainIteration& t) {
-  return largest_eigenvalue({t.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return t.apply(x); }}, "fixed-point radius");
+  return largest_eigenvalue({t.size(), [&](LinearOperator::In x, LinearOperator::Out y) { y = t.apply(x); }}, "fixed-point radius");
 }
 
 SchemeStiffness SchemeStiffness::converged(const Operators& op) {

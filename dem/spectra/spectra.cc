@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "dem/spectra/extreme_eigenvalues.h"
+#include "dem/spectra/rigid_stiffness.h"
 #include "dem/spectra/scheme_stiffness.h"
 #include "dem/spectra/step_map.h"
 #include "dem/spectra/strain_polynomial.h"
@@ -19,9 +20,7 @@ constexpr std::size_t kMostUnknowns = 700;  // of a step whose eigenvalues are s
 /// Root of the largest eigenvalue of M^-1 times that stiffness.
 double largest_frequency_of(const Operators& op, const SchemeStiffness& stiffness, const HeldDofs& held, const char* what) {
   const Eigen::VectorXd s = mass_scaling(op, held);
-  const LinearOperator scaled{s.size(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-                                return s.cwiseProduct(stiffness.apply(s.cwiseProduct(x)));
-                              }};
+  const LinearOperator scaled{s.size(), [&](LinearOperator::In x, LinearOperator::Out y) { y = s.cwiseProduct(stiffness.apply(s.cwiseProduct(x))); }};
   return std::sqrt(op.symmetric ? largest_eigenvalue(scaled, what) : largest_magnitude(scaled, what));
 }
 
@@ -33,12 +32,8 @@ bool feeds(const DeformationParameters& d, double radius) {
 }  // namespace
 
 double largest_frequency(const Assembly& a, const ContactParameters& contact, const HeldDofs& held) {
-  const Operators op = make_operators(a, contact, {});
-  const Eigen::VectorXd s = mass_scaling(op, held);
-  const SparseMatrix k = s.asDiagonal() * op.stiffness_matrix() * s.asDiagonal();
-  const double lambda = largest_eigenvalue(
-      {k.rows(), [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return k * x; }}, "critical time step");
-  return std::sqrt(lambda);
+  RigidStiffness stiffness(a, contact, held);
+  return std::sqrt(largest_eigenvalue({stiffness.size(), [&](LinearOperator::In x, LinearOperator::Out y) { stiffness.apply(x, y); }}, "critical time step"));
 }
 
 double largest_converged_frequency(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation,

@@ -24,6 +24,7 @@ void require_memory(const Scene& scene, std::span<const MemoryPart> parts);
 enum class DiscWork {
   packing,     ///< discs and their neighbours
   simulation,  ///< and bonds, critical step, motion
+  limits,      ///< and those of the scheme: of lagged strains only where a bound does not do
   statics      ///< and the factors of their stiffness, which grow as n log n, and more so with the strains of deformable discs
 };
 

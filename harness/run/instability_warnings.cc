@@ -10,6 +10,7 @@
 #include "dem/spectra/limit_bounds.h"
 #include "dem/spectra/spectra.h"
 #include "harness/model/assemble.h"
+#include "harness/model/memory_need.h"
 #include "harness/run/wave_growth.h"
 
 namespace ddem::harness {
@@ -90,6 +91,7 @@ std::vector<std::string> instability_warnings(const Scene& scene, const ddem::As
   // Finding the limits themselves takes minutes, and 9 GB, for 1e6 discs.
   const bool safe = d.scheme == Scheme::lagged && march.time_step < kAccuracy * flip_limit_bound(a, contact, d, march.dem_critical_time_step);
   if (d.scheme == Scheme::lagged && !safe) {
+    require_memory_of_discs(scene, DiscWork::limits);
     if (const double radius = radius_over_limit(a, contact, d); radius >= 1.0) {
       warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g} times what it may be; stiffen the discs "
                                      "(young_modulus) by that factor, or use scheme = \"implicit\"",

@@ -135,7 +135,7 @@ StabilityVerdict SceneStability::verdict() const {
 double SceneStability::steps_needed() const { return std::ceil(steps_to_see(slowest_growth, static_cast<std::size_t>(discs))); }
 
 SceneStability scene_stability(const Scene& scene, std::vector<double> wavelengths) {
-  require_memory_of_discs(scene, DiscWork::simulation);
+  require_memory_of_discs(scene, DiscWork::limits);
   const ddem::Assembly a = build_assembly(scene);
   const ContactParameters contact = contact_parameters(scene);
   const HeldDofs held = held_dofs(scene, a);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "dem/spectra/rigid_stiffness.h"
+#include "dem/spectra/scheme_stiffness.h"
 #include "dem/spectra/spectra.h"
 #include "tests/support/assemblies.h"
 
@@ -23,6 +25,31 @@ TEST(LargestFrequency, StripOfTheOracle) {
   for (const int d : edge_discs(p, Edge::right, 1.2 * mean_radius(p))) held.x[d] = 1;
   EXPECT_NEAR(largest_frequency(a, {1e10, 0.0, Kinematics::linear}, held) / 23288562.9875396, 1.0, 1e-6);
   EXPECT_NEAR(largest_frequency(a, {1e10, 0.5, Kinematics::linear}, held) / 32935392.075242645, 1.0, 1e-6);
+}
+
+/// Bond by bond what the matrices make of it: with and without rotation, one stiffness and one a bond, held or not.
+TEST(RigidStiffness, IsThatOfTheMatrices) {
+  const Assembly a = test::random_free_strip();
+  HeldDofs some;
+  some.x.assign(a.size(), 0), some.y = some.theta = some.x;
+  for (std::size_t d = 0; d < a.size(); d += 3) some.x[d] = 1, some.y[(d + 1) % a.size()] = 1, some.theta[(d + 5) % a.size()] = 1;
+  for (const double stiffness_ratio : {0.0, 0.3}) {
+    for (const double modulus : {0.0, 1e13}) {
+      for (const HeldDofs& held : {HeldDofs{}, some}) {
+        const ContactParameters contact{1e10, stiffness_ratio, Kinematics::linear, modulus};
+        const Operators op = make_operators(a, contact, {});
+        const Eigen::VectorXd s = mass_scaling(op, held);
+        RigidStiffness stiffness(a, contact, held);
+        ASSERT_EQ(stiffness.size(), s.size());
+        const std::vector<double> noise = test::Noise(3).vector(static_cast<std::size_t>(s.size()), 1.0);
+        const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(noise.data(), s.size());
+        const Eigen::VectorXd expected = s.cwiseProduct(op.stiffness_matrix() * s.cwiseProduct(x));
+        Eigen::VectorXd y(s.size());
+        stiffness.apply(x, y);
+        EXPECT_LT((y - expected).norm(), 1e-14 * expected.norm()) << stiffness_ratio << " " << modulus;
+      }
+    }
+  }
 }
 
 TEST(LargestFrequency, InfiniteLattice) {

@@ -69,6 +69,8 @@ TEST_F(MemoryNeed, IsWhatDiscsTake) {
   expect_near_one(taken_over_told({"run"}, moved, Purpose::simulation, DiscWork::simulation), "run");
   expect_near_one(taken_over_told({"run"}, moved + soft + "\"lagged\"\n", Purpose::simulation, DiscWork::simulation), "run, lagged");
   expect_near_one(taken_over_told({"run"}, moved + soft + "\"implicit\"\n", Purpose::simulation, DiscWork::simulation), "run, implicit");
+  const std::string large_step = replaced(moved, "steps = 20", "step_fraction = 0.85\nsteps = 20");
+  expect_near_one(taken_over_told({"run"}, large_step + soft + "\"lagged\"\n", Purpose::simulation, DiscWork::limits), "run, lagged, near its limit");
   expect_near_one(taken_over_told({"moduli"}, solid, Purpose::statics, DiscWork::statics), "moduli");
   expect_near_one(taken_over_told({"moduli"}, solid + soft + "\"lagged\"\n", Purpose::statics, DiscWork::statics), "moduli of deformable discs");
 }
@@ -133,23 +135,23 @@ TEST_F(MemoryNeed, IsWhatCalibrationTakes) {
 /// A little more than there is, not only what no machine has.
 TEST_F(MemoryNeed, BeyondTheLimitOfTheProcessIsRefused) {
   if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
-  write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 100\nradius = \"0.1 mm\"\n" + solid +
+  write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 400\nradius = \"0.1 mm\"\n" + solid +
                           "[drive]\nwave = \"shear\"\nduration = 1e-6\namplitude = 1e-8\n[time]\nsteps = 20\n[probes]\ndiscs = [5, 9]\n");
   const auto run = run_program("/bin/sh", {"-c", "ulimit -v 800000; exec \"$0\" run \"$1\"", DDEM_PROGRAM, path("scene.toml")});
   EXPECT_EQ(run.exit_code, 2) << run.standard_error;
-  EXPECT_THAT(run.standard_error, testing::HasSubstr("would take 1.1 GB of memory"));
+  EXPECT_THAT(run.standard_error, testing::HasSubstr("would take 1.2 GB of memory"));
 }
 
 TEST_F(MemoryNeed, OfTheJobsOfACampaignIsToldBeforeAnyRuns) {
   if (ddem::test::kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
-  write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 100\nradius = \"0.1 mm\"\n" + solid +
+  write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 2000\nrows = 400\nradius = \"0.1 mm\"\n" + solid +
                           "[drive]\nwave = \"shear\"\nduration = 1e-6\namplitude = 1e-8\n[time]\nsteps = 20\n[probes]\ndiscs = [5, 9]\n");
   write("cases.toml", "[[case]]\nid = \"a\"\nscene = \"scene.toml\"\n[case.matrix]\n\"contact.stiffness_ratio\" = [0.1, 0.2, 0.3]\n[[case.criterion]]\nmetric = \"bonds\"\nlower = 1\n"
                       "derivation = \"d\"\n");
-  // 1.1 GB each.
+  // 1.2 GB each.
   const auto run = run_program("/bin/sh", {"-c", "ulimit -v 2900000; exec \"$0\" validate \"$1\" -j 3 -o \"$2\"", DDEM_PROGRAM, path("cases.toml"), path("out")});
   EXPECT_EQ(run.exit_code, 2) << run.standard_error;
-  EXPECT_THAT(run.standard_error, testing::HasSubstr("--jobs: 3 of the campaign's simulations at a time would take 3.3 GB of memory, and "));
+  EXPECT_THAT(run.standard_error, testing::HasSubstr("--jobs: 3 of the campaign's simulations at a time would take 3.6 GB of memory, and "));
   EXPECT_THAT(run.standard_error, testing::HasSubstr("take --jobs 2"));
   EXPECT_TRUE(contents().count("out/summary.json") == 0);
 }
