@@ -126,13 +126,13 @@ MetricProblem problem_of_metric(const std::string& metric) {
   return {"no such number", fmt::format("there are {}{}", prefix, fmt::join(names, ", " + prefix))};
 }
 
-std::string_view unit_of_metric(const std::string& metric) {
+Dimension dimension_of_metric(const std::string& metric) {
   const auto ends = [&](string_view end) { return metric.ends_with(end); };
-  if (metric.find("wave_speed") != std::string::npos || ends("_velocity") || ends("_speed")) return "m/s";
-  if (ends("_modulus")) return "Pa";
-  if (ends("density")) return "kg/m3";
-  if (ends("time_step")) return "s";
-  return "";
+  if (metric.find("wave_speed") != std::string::npos || ends("_velocity") || ends("_speed")) return Dimension::velocity;
+  if (ends("_modulus")) return Dimension::stress;
+  if (ends("density")) return Dimension::density;
+  if (ends("time_step")) return Dimension::time;
+  return Dimension::none;
 }
 
 MetricProblem problem_of_metric(const std::string& metric, const Scene& scene) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "harness/scene/scene.h"
+#include "harness/scene/units.h"
 
 namespace ddem::harness {
 
@@ -19,8 +20,8 @@ struct MetricProblem {
 /// Of a name alone: no prefix of ours, no such number.
 MetricProblem problem_of_metric(const std::string& metric);
 
-/// The SI unit of a known metric; empty: dimensionless.
-std::string_view unit_of_metric(const std::string& metric);
+/// Of a known metric.
+Dimension dimension_of_metric(const std::string& metric);
 
 /// Of a known metric with a scene that can never have it. (What fails to be measured is found when it is run.)
 MetricProblem problem_of_metric(const std::string& metric, const Scene& scene);

@@ -12,6 +12,7 @@
 #include "harness/studies/user_cases/metrics.h"
 #include "harness/scene/nearest_name.h"
 #include "harness/scene/text_file.h"
+#include "harness/scene/units.h"
 #include "reports/text.h"
 
 namespace ddem::harness {
@@ -180,9 +181,7 @@ class CaseReader {
       lacks("lower",
             "give lower, upper or both: shares of the target such as -0.01 and 0.01, or without a target the "
             "bounds themselves");
-    if (const std::string_view unit = unit_of_metric(c.metric); !c.metric.empty() && !c.unit.empty() && c.unit != unit)
-      report(element.line, "case.criterion.unit", c.unit, fmt::format("{} {}", c.metric, unit.empty() ? "has no unit" : fmt::format("is in {}", unit)),
-             unit.empty() ? "leave unit out" : fmt::format("give target and bounds in {}, and unit = \"{}\" or none", unit, unit));
+    if (!c.metric.empty() && !c.unit.empty()) check_unit(element.line, c);
     const bool has_target = c.target || !c.reference.empty();
     if (!c.reference.empty() && c.reference == c.metric)
       report(element.line, "case.criterion.target", c.reference, "a metric is as good as itself", "name another metric, or give a number");
@@ -197,6 +196,18 @@ class CaseReader {
       report(element.line, "case.criterion.target", "0", "shares of it are nothing",
              "leave it out, and give lower and upper as bounds");
     return c;
+  }
+
+  /// Target and bounds are plain numbers, hence in the SI unit, however that is spelt.
+  void check_unit(int line, CaseCriterion& c) {
+    const Dimension dimension = dimension_of_metric(c.metric);
+    const std::string_view si = si_unit(dimension);
+    if (!si.empty() && parse_quantity("1 " + c.unit, dimension).si == 1.0) {
+      c.unit = si;
+      return;
+    }
+    report(line, "case.criterion.unit", c.unit, fmt::format("{} {}", c.metric, si.empty() ? "has no unit" : fmt::format("is in {}", si)),
+           si.empty() ? "leave unit out" : fmt::format("give target and bounds in {}, and unit = \"{}\" or none", si, si));
   }
 
   bool read_scene_text(const Element& element, UserCase& c) {

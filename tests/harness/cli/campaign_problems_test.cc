@@ -63,6 +63,15 @@ TEST_F(CampaignProblems, UnitsThatAMetricHasNot) {
   }
 }
 
+TEST_F(CampaignProblems, TheUnitOfAMetricMayBeSpeltAsInScenes) {
+  for (const auto& [metric, unit, written] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"moving_density", "kg/m^3", "kg/m3"}, {"moving_density", "kg/m³", "kg/m3"}, {"static.young_modulus", "N/m2", "Pa"}}) {
+    write("campaign.toml", replaced(case_of("scene.toml", metric), "lower = -1.0\nupper = 1.0", "unit = \"" + unit + "\"\nlower = 0.0"));
+    EXPECT_EQ(validate("night", {"--force"}).exit_code, 0) << unit;
+    EXPECT_THAT(outcome("night"), HasSubstr("\"unit\": \"" + written + "\"")) << unit;
+  }
+}
+
 TEST_F(CampaignProblems, MetricsThatTheSceneCannotHave) {
   write("points.toml", replaced(with_table(small_scene(), "[time]\nend = \"1 us\""), "pairs = 3", "points = [[1e-3, 1e-4]]"));
   write("one.toml", replaced(small_scene(), "pairs = 3", "pairs = 1"));
