@@ -18,7 +18,7 @@ using Eigen::MatrixXcd;
 constexpr const char* kBlochWaves = "Bloch waves";
 constexpr int kBonds = 3;
 constexpr int kZonePoints = 24;       // a multiple of 6: the corners (1/3, 1/3) and edge centres (1/2, 0) are on the grid
-constexpr int kGridRefinements = 6;       // of the grid around its worst wave, by 2 each: a maximum is then right to 1e-5
+constexpr int kGridRefinements = 6;   // of the grid around its worst wave, by 2 each: a maximum is then right to 1e-5
 // Rotations are often fastest in the centre of the zone, where the translations' z = 1 is a defective double eigenvalue.
 constexpr double kNearCentre = 1e-3;
 constexpr double kStepAccuracy = 1e-4;
