@@ -82,7 +82,7 @@ TEST(Samples, ThatAreTooManyAreRefusedByTheirKey) {
   EXPECT_TRUE(says(refusal(keys, 41), "--snapshots: 41 are more than the 40 steps of the run"));
   keys["assembly.columns"] = "20000";
   keys["assembly.rows"] = "5000";
-  EXPECT_TRUE(says(refusal(keys), "assembly.columns = 20000: 1e+08 discs would take 550 GB")) << refusal(keys);
+  EXPECT_TRUE(says(refusal(keys), "assembly.columns = 20000: 1e+08 discs would take 150 GB")) << refusal(keys);
   keys["assembly.columns"] = "1000";
   keys["assembly.rows"] = "100";
   EXPECT_TRUE(says(refusal(keys, 10000), "--snapshots: 10000 snapshots of 1e+05 discs would take 120 GB"));
