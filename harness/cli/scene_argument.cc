@@ -1,6 +1,7 @@
 #include "harness/cli/scene_argument.h"
 
 #include "harness/io/errors.h"
+#include "harness/scene/scene_files.h"
 
 namespace ddem::harness {
 
@@ -13,14 +14,8 @@ Scene load_scene(const std::filesystem::path& path, Purpose purpose) {
 }
 
 std::vector<std::filesystem::path> files_read_by(const Scene& scene) {
-  std::vector<std::filesystem::path> files = {scene.path};
-  if (const auto* file = std::get_if<FilePacking>(&scene.assembly.packing)) files.push_back(file->discs);
-  if (const auto* bonds = std::get_if<BondFile>(&scene.assembly.bonding)) files.push_back(bonds->path);
-  if (const auto* state = std::get_if<InitialState>(&scene.load)) {
-    if (state->displacement) files.push_back(*state->displacement);
-    if (state->velocity) files.push_back(*state->velocity);
-  }
-  if (scene.continuum && scene.continuum->mesh) files.push_back(*scene.continuum->mesh);
+  std::vector<std::filesystem::path> files = files_named_by(scene);
+  files.push_back(scene.path);
   return files;
 }
 

@@ -17,6 +17,7 @@
 #include "harness/model/random_packing.h"
 #include "harness/scene/place.h"
 #include "meshes/packings/hexagonal.h"
+#include "meshes/packings/porosity.h"
 
 namespace ddem::harness {
 namespace {
@@ -41,6 +42,8 @@ template <class F>
 auto naming_scene(const Scene& scene, std::string_view key, F&& f) {
   try {
     return f();
+  } catch (const packings::PorosityOutOfReach& e) {
+    throw InputError(scene_problem(scene, "assembly.porosity", e.what(), ""));
   } catch (const std::invalid_argument& e) {
     throw InputError(scene_problem(scene, key, e.what(), ""));
   }

@@ -15,6 +15,7 @@
 #include "dem/assembly/packing_check.h"
 #include "harness/io/errors.h"
 #include "harness/model/memory_need.h"
+#include "harness/model/valid_table.h"
 #include "harness/scene/csv.h"
 #include "harness/scene/place.h"
 #include "harness/scene/units.h"
@@ -24,14 +25,6 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 constexpr std::size_t kListed = 10;
-
-template <class Table>
-const Table& read(const Checked<Table>& table) {
-  if (table) return *table;
-  std::vector<std::string> lines;
-  for (const Violation& v : table.violations) lines.push_back(to_string(v));
-  throw InputError(lines);
-}
 
 /// One direction of a scene's size and what the discs need of it, m.
 struct Extent {
@@ -98,7 +91,7 @@ Packing bonded_discs(const Scene& scene, const Packing& packing) {
   if (file == nullptr) return packing;
   const Checked<BondTable> checked = read_bond_table(file->path);
   std::vector<char> bonded(packing.size(), 0);
-  for (const auto& [i, j] : read(checked)) {
+  for (const auto& [i, j] : valid_table(checked)) {
     for (const std::size_t d : {static_cast<std::size_t>(i), static_cast<std::size_t>(j)}) {
       if (d >= bonded.size()) return packing;
       bonded[d] = 1;
@@ -120,7 +113,7 @@ Packing file_packing(const Scene& scene, const FilePacking& p) {
   const MemoryPart text{"the file's text and discs", unknown ? 0.0 : 3.0 * bytes, "assembly.file", "is it the right file?"};
   require_memory(scene, {&text, 1});
   const Checked<DiscTable> checked = read_disc_table(p.discs);
-  const DiscTable& table = read(checked);
+  const DiscTable& table = valid_table(checked);
   Packing packing{table.x, table.y, table.radius, {}, 0.0, 0.0};
   if (packing.size() < 2) throw InputError(scene_problem(scene, "assembly.file", "fewer than two discs", "give at least two rows"));
   packing.period = {scene.assembly.periodic.x ? p.length.value() : 0.0, scene.assembly.periodic.y ? p.width.value() : 0.0};
@@ -139,7 +132,7 @@ Packing file_packing(const Scene& scene, const FilePacking& p) {
 
 Bonds file_bonds(const Packing& packing, const BondFile& file) {
   const Checked<BondTable> checked = read_bond_table(file.path);
-  const BondTable& table = read(checked);
+  const BondTable& table = valid_table(checked);
   const int discs = static_cast<int>(packing.size());
   const double mean = mean_radius(packing);
   std::map<std::pair<int, int>, std::size_t> seen;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <variant>
 
 #include "dem/assembly/assembly.h"
@@ -29,6 +30,8 @@ PackingReport report_on_packing(const Scene& scene, const Packing& packing) {
   r.discs = packing.size();
   r.length = packing.length;
   r.width = packing.width;
+  const auto [smallest, largest] = std::ranges::minmax(packing.radius);
+  r.smallest_radius = smallest, r.largest_radius = largest;
   r.tiling = {1, 1, static_cast<int>(packing.size())};
   packings::FlatWalls walls;
   const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
@@ -68,6 +71,8 @@ Json packing_json(const PackingReport& r) {
   Json j{{"discs", r.discs}, {"length", r.length}, {"width", r.width}};
   j["porosity"] = s.porosity;
   j["mean_radius"] = s.mean_radius;
+  j["smallest_radius"] = r.smallest_radius;
+  j["largest_radius"] = r.largest_radius;
   j["largest_overlap"] = s.largest_overlap;
   j["unbalanced_force"] = s.unbalanced_force;
   j["touching_pairs"] = s.contacts;
@@ -86,8 +91,9 @@ Json packing_json(const PackingReport& r) {
 
 std::string packing_text(const PackingReport& r) {
   const packings::PackingStatistics& s = r.statistics;
-  std::string text = fmt::format("{} discs in {} x {}, porosity {:.4f}, mean radius {}\n", r.discs, format_quantity(r.length, "m"),
-                                 format_quantity(r.width, "m"), s.porosity, format_quantity(s.mean_radius, "m"));
+  std::string text = fmt::format("{} discs in {} x {}, porosity {:.4f}, mean radius {} ({} to {})\n", r.discs, format_quantity(r.length, "m"),
+                                 format_quantity(r.width, "m"), s.porosity, format_quantity(s.mean_radius, "m"),
+                                 format_quantity(r.smallest_radius, "m"), format_quantity(r.largest_radius, "m"));
   if (r.tiling.nx * r.tiling.ny > 1)
     text += fmt::format("{} x {} copies of one periodic cell of {} discs\n", r.tiling.nx, r.tiling.ny, r.tiling.discs);
   text += fmt::format("largest overlap {:.2g} mean radii, {:.1f} % of the discs in hexagonal order\n", s.largest_overlap,

@@ -16,6 +16,7 @@ namespace ddem::harness {
 struct PackingReport {
   std::size_t discs = 0;
   double length = 0.0, width = 0.0;  ///< m
+  double smallest_radius = 0.0, largest_radius = 0.0;  ///< m
   packings::PackingStatistics statistics;
   packings::Tiling tiling;  ///< 1 x 1 for what is jammed as a whole, and for lattices and files
 

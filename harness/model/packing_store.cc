@@ -52,6 +52,11 @@ std::string header(const packings::RandomSpec& spec) {
   append(bytes, static_cast<std::uint64_t>(spec.discs));
   append(bytes, spec.seed);
   append(bytes, (spec.walls.x ? 1u : 0u) + (spec.walls.y ? 2u : 0u));
+  if (spec.grading.law != packings::Grading::Law::uniform) {
+    append(bytes, static_cast<std::uint64_t>(spec.grading.law));
+    append(bytes, static_cast<std::uint64_t>(spec.grading.sieve.radius.size()));
+    for (const auto* values : {&spec.grading.sieve.radius, &spec.grading.sieve.passing}) append(bytes, *values);
+  }
   return bytes;
 }
 

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "harness/model/packing_store.h"
+#include "harness/model/valid_table.h"
+#include "harness/scene/csv.h"
+#include "meshes/packings/porosity.h"
 #include "meshes/packings/tile.h"
 
 namespace ddem::harness {
@@ -13,6 +17,19 @@ packings::FlatWalls walls_of(const RandomPacking& packing, Periodicity periodic)
   const bool flat = packing.walls == Walls::flat;
   return {flat && !periodic.x, flat && !periodic.y};
 }
+
+namespace {
+
+/// The enumerators of a scene's gradings are those of the packings'.
+packings::Grading grading_of(const RandomPacking& p) {
+  packings::Grading grading{.law = static_cast<packings::Grading::Law>(p.grading)};
+  if (p.grading != Grading::sieve) return grading;
+  const Checked<SieveTable> curve = read_sieve_table(p.sieve);
+  grading.sieve = {valid_table(curve).radius, valid_table(curve).passing};
+  return grading;
+}
+
+}  // namespace
 
 packings::Tiling tiling_of(const RandomPacking& p, Periodicity periodic) {
   const bool walled = walls_of(p, periodic) != packings::FlatWalls{};
@@ -26,12 +43,15 @@ packings::Tiling tiling_of(const RandomPacking& p, Periodicity periodic) {
 
 Packing jammed_cell(const RandomPacking& p, Periodicity periodic) {
   const packings::Tiling tiling = tiling_of(p, periodic);
-  return stored_random_packing({.length = p.length / tiling.nx,
-                                .width = p.width / tiling.ny,
-                                .discs = tiling.discs,
-                                .seed = static_cast<std::uint64_t>(p.seed),
-                                .radius_ratio = p.radius_ratio,
-                                .walls = walls_of(p, periodic)});
+  const packings::FlatWalls walls = walls_of(p, periodic);
+  Packing cell = stored_random_packing({.length = p.length / tiling.nx,
+                                        .width = p.width / tiling.ny,
+                                        .discs = tiling.discs,
+                                        .seed = static_cast<std::uint64_t>(p.seed),
+                                        .radius_ratio = p.radius_ratio,
+                                        .walls = walls,
+                                        .grading = grading_of(p)});
+  return p.porosity ? packings::with_porosity(std::move(cell), *p.porosity, walls != packings::FlatWalls{}) : cell;
 }
 
 Packing random_packing(const RandomPacking& p, Periodicity periodic) {

@@ -15,11 +15,13 @@ packings::FlatWalls walls_of(const RandomPacking& packing, Periodicity periodic)
 /// See tiling_of(). Throws std::invalid_argument for flat walls around more discs than are jammed as a whole.
 packings::Tiling tiling_of(const RandomPacking& packing, Periodicity periodic);
 
-/// What is jammed: the whole packing, or the cell that random_packing() repeats. Throws as random_packing().
+/// What is jammed: the whole packing, or the cell that random_packing() repeats; its radii scaled to the porosity that is asked for.
+/// Throws as random_packing().
 Packing jammed_cell(const RandomPacking& packing, Periodicity periodic);
 
 /// The packing, periodic where it has no walls, from memory or the user's cache where it was jammed before.
-/// Throws std::invalid_argument and std::runtime_error as random_jammed().
+/// Throws std::invalid_argument and std::runtime_error as random_jammed(), packings::PorosityOutOfReach, and InputError for a sieve
+/// curve that is none.
 Packing random_packing(const RandomPacking& packing, Periodicity periodic);
 
 }  // namespace ddem::harness

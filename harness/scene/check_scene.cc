@@ -67,6 +67,7 @@ void check_assembly(Values& values, bool discs_needed) {
     require(values, "assembly.length");
     require(values, "assembly.width");
     if (discs_needed) require(values, "assembly.discs");
+    if (values.is("assembly.grading", "sieve")) require(values, "assembly.sieve");
   }
 }
 

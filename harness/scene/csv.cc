@@ -222,6 +222,32 @@ Checked<StateTable> parse_state_table(std::string_view text, const std::string& 
   return table;
 }
 
+Checked<SieveTable> parse_sieve_table(std::string_view text, const std::string& name) {
+  Problems problems(name);
+  SieveTable table;
+  int last_line = 0;
+  const std::array<std::string_view, 2> names{"radius", "passing"};
+  read_rows<double>(text, names, problems, [&](int line, const std::array<double, 2>& row) {
+    const auto wrong = [&](int column, const char* message, const char* remedy) {
+      problems.add(line, names[static_cast<std::size_t>(column)], fmt::format("{}", row[static_cast<std::size_t>(column)]), message, remedy);
+    };
+    const bool first = table.radius.empty();
+    if (!(row[0] > 0.0)) wrong(0, "must be greater than 0", "write it in metres");
+    if (!first && !(row[0] > table.radius.back())) wrong(0, "not larger than the radius of the row before", "sort the rows by radius");
+    if (!(row[1] >= 0.0 && row[1] <= 1.0)) wrong(1, "must be from 0 to 1", "write shares of the mass, not per cent");
+    if (first && row[1] != 0.0) wrong(1, "the first share must be 0", "begin with the smallest radius, below which there is nothing");
+    if (!first && row[1] < table.passing.back()) wrong(1, "less than in the row before", "write shares of all that is smaller");
+    table.radius.push_back(row[0]);
+    table.passing.push_back(row[1]);
+    last_line = line;
+  });
+  if (problems.none() && table.radius.size() < 2) problems.add(last_line, "radius", "", "a single row", "a curve has two points or more");
+  if (problems.none() && table.passing.back() != 1.0)
+    problems.add(last_line, "passing", fmt::format("{}", table.passing.back()), "the last share must be 1", "end with the largest radius, which nothing exceeds");
+  if (!problems.none()) return problems.take();
+  return table;
+}
+
 int line_of_row(const std::filesystem::path& path, std::size_t row) {
   const Checked<std::string> text = read_text_file(path, max_bytes);
   if (!text) return 0;
@@ -238,6 +264,9 @@ Checked<BondTable> read_bond_table(const std::filesystem::path& path) {
 }
 Checked<StateTable> read_state_table(const std::filesystem::path& path) {
   return parse_file(path, parse_state_table);
+}
+Checked<SieveTable> read_sieve_table(const std::filesystem::path& path) {
+  return parse_file(path, parse_sieve_table);
 }
 
 void append_number(std::string& text, double value) {

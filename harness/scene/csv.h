@@ -28,10 +28,16 @@ struct StateTable {
   std::vector<int> line;  ///< of the row in the file
 };
 
+/// Header radius,passing: increasing radii, and the share by mass of smaller discs, which does not decrease and goes from 0 to 1.
+struct SieveTable {
+  std::vector<double> radius, passing;
+};
+
 /// Each reads one kind of file. What is wrong is listed by line, the first twenty problems of a file at most.
 Checked<DiscTable> read_disc_table(const std::filesystem::path& path);
 Checked<BondTable> read_bond_table(const std::filesystem::path& path);
 Checked<StateTable> read_state_table(const std::filesystem::path& path);
+Checked<SieveTable> read_sieve_table(const std::filesystem::path& path);
 
 /// The line on which a row of such a file stands, both counted from the first: lines from 1, rows from 0.
 int line_of_row(const std::filesystem::path& path, std::size_t row);
@@ -40,6 +46,7 @@ int line_of_row(const std::filesystem::path& path, std::size_t row);
 Checked<DiscTable> parse_disc_table(std::string_view text, const std::string& name);
 Checked<BondTable> parse_bond_table(std::string_view text, const std::string& name);
 Checked<StateTable> parse_state_table(std::string_view text, const std::string& name);
+Checked<SieveTable> parse_sieve_table(std::string_view text, const std::string& name);
 
 /// Appends the shortest decimal that reads back as the same double. Throws std::invalid_argument for NaN and
 /// infinity, which no file of ours holds.

@@ -13,7 +13,8 @@ constexpr std::string_view any_packing = "random | hexagonal | file";
 // scheme = "none" switches the table [deformation] off as a whole, whatever else stands in it.
 constexpr OnlyWith only_with[] = {
     {"assembly.discs", "assembly.packing", "random | hexagonal"},
-    {"assembly.seed | assembly.radius_ratio | assembly.walls", "assembly.packing", "random"},
+    {"assembly.seed | assembly.radius_ratio | assembly.walls | assembly.grading | assembly.porosity", "assembly.packing", "random"},
+    {"assembly.sieve", "assembly.grading", "sieve"},
     {"assembly.close_packed_along | assembly.columns | assembly.rows | assembly.radius", "assembly.packing", "hexagonal"},
     {"assembly.file | assembly.bonds", "assembly.packing", "file"},
     {"assembly.bond_gap | assembly.coordination | assembly.edge_band | assembly.thickness | material.density", "assembly.packing",
@@ -34,6 +35,7 @@ constexpr std::string_view no_ends = "a cell that is periodic in x and y has no 
 constexpr std::string_view use_y = "leave it out, or use periodic = \"y\"";
 
 constexpr Exclusion excluded[] = {
+    {{"assembly.grading", "sieve"}, {"assembly.radius_ratio"}, "the curve has radii of its own", "leave radius_ratio out"},
     {{"assembly.bonds"}, {"assembly.bond_gap | assembly.coordination"}},
     {{"assembly.bond_gap"}, {"assembly.coordination"}},
     {{"assembly.periodic", "xy"}, {"boundary.right | boundary.left", "fixed_x | fixed"}, no_ends, use_y},

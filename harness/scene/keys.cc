@@ -21,6 +21,7 @@ constexpr Range non_negative{.low = 0.0};
 constexpr Range non_zero{.zero_excluded = true};
 constexpr Range between_minus_one_and_one{
     .low = -1.0, .high = 1.0, .low_excluded = true, .high_excluded = true};
+constexpr Range below_one{.low = 0.0, .high = 1.0, .low_excluded = true, .high_excluded = true};
 constexpr Range fraction{.low = 0.0, .high = 1.0, .low_excluded = true};
 constexpr Range small_fraction{.low = 1e-12, .high = 0.1};
 constexpr Range from(double low, double high = unlimited) {
@@ -83,6 +84,14 @@ constexpr KeySpec keys[] = {
     into<&RandomPacking::seed>(integer("assembly", "seed", non_negative, "1",
             "random: another seed is another packing; the same seed is the same packing, to the bit")),
     into<&RandomPacking::radius_ratio>(number("assembly", "radius_ratio", from(1, 10), "1.67", "random: largest over smallest radius")),
+    into<&RandomPacking::grading>(choice("assembly", "grading", "uniform | log-normal | sieve", "\"uniform\"",
+           "random: radii by number, uniform between the smallest and the largest, or log-normal (these are two standard deviations off); or "
+           "by mass, as the curve of assembly.sieve has them")),
+    into<&RandomPacking::sieve>(file("assembly", "sieve",
+           "random: CSV with header radius,passing: the share by mass of the discs that are smaller, from 0 to 1; radii are scaled")),
+    into<&RandomPacking::porosity>(number("assembly", "porosity", below_one, no_default,
+           "random: in the end radii are scaled to it, which leaves gaps between the discs, or overlaps; without it that at which they jam, "
+           "some 0.16")),
     into<&RandomPacking::walls>(choice("assembly", "walls", "periodic | flat", "\"periodic\"",
            "random: packed in a periodic cell, whose bonds across free edges are cut, or between flat walls at all "
            "edges that are not periodic")),

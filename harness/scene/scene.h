@@ -18,6 +18,7 @@ namespace ddem::harness {
 
 enum class Axis { x, y };
 enum class Walls { periodic, flat };
+enum class Grading { uniform, log_normal, sieve };
 
 /// [assembly] packing = "random": jammed polydisperse discs in a rectangle.
 struct RandomPacking {
@@ -26,6 +27,9 @@ struct RandomPacking {
   std::int64_t seed = 1;
   double radius_ratio = 1.67;  ///< largest over smallest radius
   Walls walls = Walls::periodic;
+  Grading grading = Grading::uniform;
+  std::filesystem::path sieve = {};      ///< CSV radius,passing
+  std::optional<double> porosity = {};  ///< without it that at which the discs jam
 };
 
 /// Hexagonal packing by its lattice.

@@ -52,6 +52,8 @@ void check_spec(const RandomSpec& spec) {
   if (!(spec.radius_ratio >= 1.0 && spec.radius_ratio <= 10.0))
     throw std::invalid_argument(fmt::format(
         "the ratio of the largest to the smallest radius must be 1 to 10, but is {}", spec.radius_ratio));
+  if (const SieveCurve& s = spec.grading.sieve; spec.grading.law == Grading::Law::sieve && !(s.radius.size() > 1 && s.radius.back() <= 10.0 * s.radius.front()))
+    throw std::invalid_argument("the largest radius of a sieve curve must be at most ten times the smallest");
   if (spec.discs < 2)
     throw std::invalid_argument(
         fmt::format("a random packing needs at least two discs, but has {}", spec.discs));
@@ -62,15 +64,11 @@ void check_spec(const RandomSpec& spec) {
                     spec.discs, kMostDiscs));
 }
 
-/// Radii at equal steps from the smallest to the largest, so that every seed has the same distribution, in
-/// random order; scaled to fill the cell to `solid_fraction`.
+/// In random order; scaled to fill the cell to `solid_fraction`.
 std::vector<double> radii_of(const RandomSpec& spec, double solid_fraction, Rng& rng) {
-  std::vector<double> radii;
+  std::vector<double> radii = graded_radii(spec.grading, spec.radius_ratio, spec.discs);
   double area = 0.0;
-  for (int k = 0; k < spec.discs; ++k) {
-    radii.push_back(1.0 + (spec.radius_ratio - 1.0) * k / (spec.discs - 1));
-    area += std::numbers::pi * radii.back() * radii.back();
-  }
+  for (const double radius : radii) area += std::numbers::pi * radius * radius;
   const double scale = std::sqrt(solid_fraction * spec.length * spec.width / area);
   for (double& radius : radii) radius *= scale;
   for (std::size_t k = radii.size() - 1; k > 0; --k) std::swap(radii[k], radii[rng.below(k + 1)]);
@@ -262,6 +260,10 @@ bool is_near(const std::vector<double>& start, const std::vector<std::size_t>& b
   return *middle < kFarthestMove * size;
 }
 
+bool are_told_apart(const std::vector<double>& ascending) {
+  return std::ranges::adjacent_find(ascending, [](double a, double b) { return b - a <= kRoundOff * b; }) == ascending.end();
+}
+
 bool is_near(const Packing& start, const Packing& packing) {
   const std::vector<std::size_t> before = by_radius(start), now = by_radius(packing);
   return is_near(start.x, before, packing.x, now, packing.length, packing.period.x) &&
@@ -277,8 +279,7 @@ bool can_be_jammed_from(const Packing& packing, const RandomSpec& spec) {
   if (packing.length != start.length || packing.width != start.width) return false;
   if (packing.period.x != start.period.x || packing.period.y != start.period.y) return false;
   if (!is_inside(packing) || !has_radii_of(start, packing) || !is_spread(packing)) return false;
-  const bool told_apart = (spec.radius_ratio - 1.0) / spec.discs > kRoundOff;
-  if (told_apart && !is_near(start, packing)) return false;
+  if (are_told_apart(graded_radii(spec.grading, spec.radius_ratio, spec.discs)) && !is_near(start, packing)) return false;
   const double unit = mean_radius(packing);
   const SoftDiscs::State state = SoftDiscs(packing, spec.walls).minimise({kSameBalance, 0.0, 1});
   return state.converged && state.largest_overlap > kNoOverlap * unit && state.largest_overlap <= kSameOverlap * unit;

@@ -5,6 +5,7 @@
 
 #include "dem/core/packing.h"
 #include "meshes/packings/flat_walls.h"
+#include "meshes/packings/grading.h"
 
 namespace ddem::packings {
 
@@ -12,8 +13,9 @@ struct RandomSpec {
   double length = 0.0, width = 0.0;  ///< m: periods, or distances of walls
   int discs = 0;
   std::uint64_t seed = 1;
-  double radius_ratio = 1.67;  ///< largest over smallest radius, 1 to 10; radii are uniform between them
+  double radius_ratio = 1.67;  ///< largest over smallest radius, 1 to 10
   FlatWalls walls = {};        ///< where not periodic
+  Grading grading = {};
 
   bool operator==(const RandomSpec&) const = default;
 };

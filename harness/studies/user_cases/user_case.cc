@@ -7,6 +7,7 @@
 
 #include "harness/io/digest.h"
 #include "harness/model/memory_need.h"
+#include "harness/scene/scene_files.h"
 
 namespace ddem::harness {
 
@@ -43,16 +44,9 @@ std::string inputs_of_case(const UserCase& c) {
   for (const std::string& group : groups_of(c)) inputs += "\n" + group;
   const SceneResult scene = scene_of_case(c);
   if (!scene) return inputs;
-  const auto add = [&](const std::filesystem::path& file) {
+  for (const std::filesystem::path& file : files_named_by(*scene)) {
     std::error_code ignored;
     inputs += "\n" + (std::filesystem::exists(file, ignored) ? sha256_of_file(file) : "no file");
-  };
-  if (const auto* file = std::get_if<FilePacking>(&scene->assembly.packing)) add(file->discs);
-  if (const auto* bonds = std::get_if<BondFile>(&scene->assembly.bonding)) add(bonds->path);
-  if (scene->continuum && scene->continuum->mesh) add(*scene->continuum->mesh);
-  if (const auto* state = std::get_if<InitialState>(&scene->load)) {
-    if (state->displacement) add(*state->displacement);
-    if (state->velocity) add(*state->velocity);
   }
   return inputs;
 }

@@ -148,6 +148,37 @@ TEST_F(Pack, JamsOnceAndGivesTheSameBits) {
   EXPECT_EQ(read("discs.csv"), made);
 }
 
+TEST_F(Pack, GradingsAndPorosities) {
+  write("curve.csv", "radius,passing\n1,0\n3,1\n");
+  const std::string discs = "discs = 300\n";
+  const Json uniform = packed(discs), sieved = packed(discs + "grading = \"sieve\"\nsieve = \"curve.csv\"\n");
+  EXPECT_NEAR(uniform["largest_radius"].get<double>() / uniform["smallest_radius"].get<double>(), 1.67, 1e-12);
+  // Of 300 quantiles the outermost are half a disc off the ends.
+  EXPECT_NEAR(sieved["largest_radius"].get<double>() / sieved["smallest_radius"].get<double>(), 3.0, 0.1);
+  EXPECT_NEAR(packed(discs + "porosity = 0.3\n")["porosity"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(files_in_cache(), 2u);  // radii are scaled after that
+
+  const auto refused = [&](const std::string& lines, const std::vector<std::string>& parts) {
+    write("scene.toml", "[assembly]\npacking = \"random\"\nlength = \"8 mm\"\nwidth = \"2 mm\"\ndiscs = 300\n" + lines);
+    const SubprocessResult result = ddem({"pack", path("scene.toml"), "-o", path("discs.csv")});
+    EXPECT_EQ(result.exit_code, 2) << lines;
+    for (const std::string& part : parts) EXPECT_THAT(result.standard_error, HasSubstr(part));
+  };
+  refused("porosity = 0.9\n", {"scene.toml:6: assembly.porosity = 0.9", "cannot be met", "can be had"});
+  refused("grading = \"sieve\"\n", {"assembly.sieve: missing"});
+  refused("sieve = \"curve.csv\"\n", {"assembly.sieve", "means nothing unless assembly.grading = \"sieve\""});
+  refused("grading = \"sieve\"\nsieve = \"curve.csv\"\nradius_ratio = 2\n", {"assembly.radius_ratio = 2", "leave radius_ratio out"});
+  for (const auto& [rows, says] : std::vector<std::pair<std::string, std::string>>{
+           {"1,0\n2,50\n", "curve.csv:3: passing = 50: must be from 0 to 1"}, {"1,0.1\n2,1\n", "curve.csv:2: passing = 0.1: the first share must be 0"},
+           {"1,0\n2,0.9\n", "curve.csv:3: passing = 0.9: the last share must be 1"}, {"2,0\n1,1\n", "curve.csv:3: radius = 1: not larger"},
+           {"1,0\n2,0.6\n3,0.5\n4,1\n", "curve.csv:4: passing = 0.5: less than"}, {"1,0\n", "a single row"}, {"0,0\n1,1\n", "curve.csv:2: radius = 0: must be greater than 0"}}) {
+    write("curve.csv", "radius,passing\n" + rows);
+    refused("grading = \"sieve\"\nsieve = \"curve.csv\"\n", {says});
+  }
+  write("curve.csv", "radius,passing\n1,0\n30,1\n");
+  refused("grading = \"sieve\"\nsieve = \"curve.csv\"\n", {"at most ten times the smallest"});
+}
+
 TEST_F(Pack, TrustsNoCacheFileThatIsNotItsOwn) {
   const packings::RandomSpec spec{.length = 4e-3, .width = 3e-3, .discs = 120, .seed = 5};
   const Packing packing = packings::random_jammed(spec);
@@ -163,6 +194,10 @@ TEST_F(Pack, TrustsNoCacheFileThatIsNotItsOwn) {
 
   packings::RandomSpec other = spec;
   other.walls.x = true;
+  EXPECT_NE(packing_cache_file(in_folder("own"), other), file);
+  EXPECT_FALSE(read_cached_packing(file, other));
+  other = spec;
+  other.grading.law = packings::Grading::Law::log_normal;
   EXPECT_NE(packing_cache_file(in_folder("own"), other), file);
   EXPECT_FALSE(read_cached_packing(file, other));
   const std::string bytes = read_file(file);

@@ -36,6 +36,7 @@ std::vector<BaseScene> make_scenes() {
       {"pulse on a lattice", with(with(lattice, moving), pulse)},
       {"cosine on a lattice", with(with(with(lattice, moving), pulse), cosine)},
       {"drive of a random packing", with(with(with(random_discs, moving), drive), {{"boundary.top_bottom", "\"periodic\""}})},
+      {"drive of a sieved packing", with(with(with(random_discs, moving), drive), {{"assembly.grading", "\"sieve\""}, {"assembly.sieve", "\"sieve.csv\""}})},
       {"states of listed discs", with(with(listed, moving), {{"initial.displacement", "\"state.csv\""}, {"boundary.right", "\"free\""}})},
       {"lagged strains", with(with(with(rectangle, moving), drive), soft)},
       {"implicit strains", with(with(with(with(lattice, moving), pulse), soft), implicit)},
@@ -95,6 +96,8 @@ std::vector<std::string> special_values_of(const std::string& key) {
       {"assembly.columns", {"8", "9"}},
       {"assembly.rows", {"4", "6"}},
       {"assembly.radius_ratio", {"1.5", "2"}},
+      {"assembly.sieve", {"\"sieve.csv\"", "\"other_sieve.csv\""}},
+      {"assembly.porosity", {"0.2", "0.25"}},
       {"assembly.bond_gap", {"0.3", "1.6"}},
       {"assembly.coordination", {"4", "5.5"}},
       {"assembly.edge_band", {"1.2", "3"}},
@@ -160,6 +163,8 @@ std::string folder_of_files() {
     const auto write = [](const char* name, const std::string& text) { std::ofstream(folder.path() / name) << text; };
     write("discs.csv", lattice_file(1.0));
     write("other_discs.csv", lattice_file(1.01));
+    write("sieve.csv", "radius,passing\n1e-4,0\n2e-4,1\n");
+    write("other_sieve.csv", "radius,passing\n1e-4,0\n1.5e-4,1\n");
     write("bonds.csv", bonds_file(1));
     write("other_bonds.csv", bonds_file(2));
     write("state.csv", state_file(1e-6));
