@@ -28,6 +28,14 @@ double bytes_a_disc(const Scene& scene, double discs, DiscWork work) {
   return 0.0;
 }
 
+/// In two digits, rounded down. Where bytes grow faster than the count, a little more would fit.
+std::string what_fits(const MemoryPart& part, double available) {
+  const double count = part.count * available / part.bytes;
+  if (!(count >= 1.0)) return "";
+  const double unit = std::pow(10.0, std::floor(std::log10(count)) - 1.0);
+  return fmt::format(", enough for {:.2g}", unit * std::floor(count / unit));
+}
+
 }  // namespace
 
 void require_memory(const Scene& scene, std::span<const MemoryPart> parts) {
@@ -40,8 +48,8 @@ void require_memory(const Scene& scene, std::span<const MemoryPart> parts) {
   if (needed <= available) return;
   const MemoryPart& largest = *std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
   throw InputError(scene_problem(scene, largest.key,
-                                 fmt::format("{} would take {} of memory, with the rest {}, and {} are left", largest.what, bytes_text(largest.bytes),
-                                             bytes_text(needed), bytes_text(available)),
+                                 fmt::format("{} would take {} of memory, with the rest {}, and {} are left{}", largest.what, bytes_text(largest.bytes),
+                                             bytes_text(needed), bytes_text(available), what_fits(largest, available - (needed - largest.bytes))),
                                  std::string(largest.remedy)));
 }
 
@@ -59,7 +67,7 @@ MemoryPart memory_of_discs(const Scene& scene, double discs, DiscWork work) {
   for (const std::string_view other : {"assembly.columns", "assembly.file"}) {
     if (scene.places.contains(std::string(other))) key = other;
   }
-  return {fmt::format("{:.3g} discs", discs), discs * bytes_a_disc(scene, discs, work), key, "take fewer discs, or a machine with more memory"};
+  return {fmt::format("{:.3g} discs", discs), discs * bytes_a_disc(scene, discs, work), key, "take fewer discs, or a machine with more memory", discs};
 }
 
 void require_memory_of_discs(const Scene& scene, DiscWork work) {

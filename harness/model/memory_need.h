@@ -16,6 +16,7 @@ struct MemoryPart {
   std::string what;
   double bytes = 0.0;
   std::string_view key, remedy;
+  double count = 0.0;  ///< of what may be fewer: then it is told how many fit
 };
 
 /// Throws InputError where all parts together take more than there is: how much that is, and of the largest part its key.

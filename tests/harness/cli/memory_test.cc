@@ -140,6 +140,8 @@ TEST_F(MemoryNeed, BeyondTheLimitOfTheProcessIsRefused) {
   const auto run = run_program("/bin/sh", {"-c", "ulimit -v 800000; exec \"$0\" run \"$1\"", DDEM_PROGRAM, path("scene.toml")});
   EXPECT_EQ(run.exit_code, 2) << run.standard_error;
   EXPECT_THAT(run.standard_error, testing::HasSubstr("would take 1.2 GB of memory"));
+  // 800 MB less what the program takes, over 1500 bytes.
+  EXPECT_THAT(run.standard_error, testing::ContainsRegex("are left, enough for [345]\\.?[0-9]?e\\+05; take fewer discs"));
 }
 
 TEST_F(MemoryNeed, OfTheJobsOfACampaignIsToldBeforeAnyRuns) {
