@@ -112,7 +112,7 @@ int NewContacts::free_steps(const double* motion, double largest_strain) {
   if (always_ || !has_moved_ || !closed_.empty()) return 0;
   const double ahead = 2.0 * reach_of(largest_strain);
   const auto count = [&] { return near_.empty() ? (margin_ - ahead - 2.0 * path_) / (4.0 * last_distance_) : 0.0; };
-  // Another survey pays where most of the last one's margin is used up.
+  // Another survey pays where half of the last one's margin is used up.
   if (!(count() >= kFewSteps) && !(2.0 * path_ < 0.5 * margin_)) survey(motion, 0.5 * ahead);
   const double steps = count();
   return steps >= kStepsAhead ? static_cast<int>(kStepsAhead) : steps >= 1.0 ? static_cast<int>(steps) : 0;

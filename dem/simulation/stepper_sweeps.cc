@@ -94,8 +94,11 @@ void Stepper::advance(int thread) {
   }
 }
 
+/// With the places where a thread notes its largest.
 StepData Stepper::noted_by(int thread, StepData d) {
-  if (watch_) d.fastest = &fastest_[static_cast<std::size_t>(thread) * kLanes], d.most_strained = &most_strained_[static_cast<std::size_t>(thread) * kLanes];
+  if (!watch_) return d;
+  const std::ptrdiff_t own = std::ptrdiff_t{kLanes} * thread;
+  d.fastest = fastest_.data() + own, d.most_strained = most_strained_.data() + own;
   return d;
 }
 

@@ -3,29 +3,30 @@
 #include <cmath>
 
 #include "dem/assembly/bond_stiffness.h"
+#include "dem/spectra/scheme_stiffness.h"
 
 namespace ddem {
 
 RigidStiffness::RigidStiffness(const Assembly& a, const ContactParameters& contact, const HeldDofs& held)
     : bonds_(a.bonds),
       stiffness_(contact.uniform() ? std::vector<double>{contact.normal_stiffness} : normal_stiffnesses(a, contact)),
-      stiffness_ratio_(contact.stiffness_ratio) {
-  const Eigen::Index components = contact.has_rotation() ? 3 : 2, discs = static_cast<Eigen::Index>(a.size());
-  scaling_.resize(components * discs);
+      stiffness_ratio_(contact.stiffness_ratio),
+      rotation_(contact.has_rotation()) {
+  const int components = rotation_ ? 3 : 2;
+  scaling_.resize(components * static_cast<Eigen::Index>(a.size()));
   moved_.resize(scaling_.size());
-  const auto moves = [](const std::vector<std::uint8_t>& mask, std::size_t p) { return mask.empty() || !mask[p]; };
   for (std::size_t p = 0; p < a.size(); ++p) {
     double* s = scaling_.data() + components * static_cast<Eigen::Index>(p);
-    s[0] = moves(held.x, p) ? std::sqrt(1.0 / a.mass[p]) : 0.0;
-    s[1] = moves(held.y, p) ? std::sqrt(1.0 / a.mass[p]) : 0.0;
-    if (components == 3) s[2] = moves(held.theta, p) ? std::sqrt(1.0 / a.inertia[p]) : 0.0;
+    s[0] = s[1] = std::sqrt(1.0 / a.mass[p]);
+    if (rotation_) s[2] = std::sqrt(1.0 / a.inertia[p]);
   }
+  hold(held, components, scaling_);
 }
 
 void RigidStiffness::apply(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y) {
   moved_ = scaling_.cwiseProduct(x);
   y.setZero();
-  stiffness_ratio_ > 0.0 ? add_forces<true>(y.data()) : add_forces<false>(y.data());
+  rotation_ ? add_forces<true>(y.data()) : add_forces<false>(y.data());
   y.array() *= scaling_.array();
 }
 

@@ -27,6 +27,7 @@ class RigidStiffness {
   Eigen::VectorXd scaling_, moved_;  // M^-1/2, zero where held; of x
   std::vector<double> stiffness_;    // k_n: one, or one a bond
   double stiffness_ratio_ = 0.0;
+  bool rotation_ = false;
 };
 
 }  // namespace ddem

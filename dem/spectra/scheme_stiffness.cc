@@ -64,16 +64,20 @@ std::function<Eigen::VectorXd(const Eigen::VectorXd&)> function_of_iteration(con
 
 }  // namespace
 
-Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
-  Eigen::VectorXd s = op.inverse_mass.cwiseSqrt();
-  const auto hold = [&](const std::vector<std::uint8_t>& mask, int component) {
+void hold(const HeldDofs& held, int components, Eigen::VectorXd& values) {
+  const auto hold_component = [&](const std::vector<std::uint8_t>& mask, int component) {
     for (std::size_t p = 0; p < mask.size(); ++p) {
-      if (mask[p]) s[op.dofs_per_disc * static_cast<Eigen::Index>(p) + component] = 0.0;
+      if (mask[p]) values[components * static_cast<Eigen::Index>(p) + component] = 0.0;
     }
   };
-  hold(held.x, 0);
-  hold(held.y, 1);
-  if (op.dofs_per_disc == 3) hold(held.theta, 2);
+  hold_component(held.x, 0);
+  hold_component(held.y, 1);
+  if (components == 3) hold_component(held.theta, 2);
+}
+
+Eigen::VectorXd mass_scaling(const Operators& op, const HeldDofs& held) {
+  Eigen::VectorXd s = op.inverse_mass.cwiseSqrt();
+  hold(held, op.dofs_per_disc, s);
   return s;
 }
 

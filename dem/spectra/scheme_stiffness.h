@@ -48,6 +48,9 @@ class SchemeStiffness {
   Strains strains_;  ///< Q; empty for plain DEM
 };
 
+/// Sets what is held to zero, of 2 or 3 `components` a disc.
+void hold(const HeldDofs& held, int components, Eigen::VectorXd& values);
+
 /// M^-1/2, zero where held.
 Eigen::VectorXd mass_scaling(const Operators& operators, const HeldDofs& held);
 

@@ -29,6 +29,16 @@ double step_of_mass(double mass, double fraction) {
   return fraction * 2.0 / std::sqrt(6.0) * std::sqrt(mass / kNormalStiffness);
 }
 
+ddem::Assembly random_strip(std::size_t discs) {
+  const double part = static_cast<double>(discs) / kPaperDiscs, area = kPaperLength * kPaperWidth * part;
+  const double width = discs == kPaperDiscs ? kPaperWidth : std::sqrt(area / kAspect);
+  const RandomPacking spec{.length = area / width, .width = width, .discs = static_cast<std::int64_t>(discs)};
+  const double gap = gap_for_coordination(jammed_cell(spec, {}), kCoordination);  // every gap of copies is there as often as they are
+  Packing p = random_packing(spec, {});
+  p.period = {};  // the edges of a strip
+  return make_assembly(p, bonds_within_gap(p, gap), 1.0, kDensity);
+}
+
 }  // namespace
 
 std::string name_of(Arrangement arrangement) {
@@ -53,16 +63,6 @@ ddem::Assembly lattice(int columns, int rows, bool periodic, double radius) {
   const Packing p = packings::hexagonal(
       {.columns = columns, .rows = rows, .radius = radius, .periodic_x = periodic, .periodic_y = periodic});
   return make_assembly(p, bonds_within_gap(p, 0.1 * radius), 1.0, kDensity);
-}
-
-ddem::Assembly random_strip(std::size_t discs) {
-  const double part = static_cast<double>(discs) / kPaperDiscs, area = kPaperLength * kPaperWidth * part;
-  const double width = discs == kPaperDiscs ? kPaperWidth : std::sqrt(area / kAspect);
-  const RandomPacking spec{.length = area / width, .width = width, .discs = static_cast<std::int64_t>(discs)};
-  const double gap = gap_for_coordination(jammed_cell(spec, {}), kCoordination);  // every gap of copies is there as often as they are
-  Packing p = random_packing(spec, {});
-  p.period = {};  // the edges of a strip
-  return make_assembly(p, bonds_within_gap(p, gap), 1.0, kDensity);
 }
 
 ddem::Assembly strip_of(Arrangement arrangement, std::size_t discs) {

@@ -31,11 +31,8 @@ Law deformable(Scheme scheme, bool shear = true, bool per_bond = false);
 /// Touching discs, close-packed rows along x, so many a row; `periodic` in both directions.
 ddem::Assembly lattice(int columns, int rows, bool periodic = false, double radius = kRadius);
 
-/// The random strip of the paper, or one five times as long as wide: discs as large on average as those of the lattice, 5.8 bonds
-/// each. Jammed first where the user's cache has not its cell.
-ddem::Assembly random_strip(std::size_t discs);
-
-/// About so many discs.
+/// About so many discs: the strip of the paper, or one five times as long as wide. Random ones are as large on average as those of the
+/// lattice and have 5.8 bonds each away from the edges; they are jammed first where the user's cache has not their cell.
 ddem::Assembly strip_of(Arrangement arrangement, std::size_t discs);
 
 /// Columns and rows of about so many discs, five times as long as wide.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "dem/assembly/contacts.h"
+#include "meshes/packings/porosity.h"
 
 namespace ddem::packings {
 namespace {
@@ -104,11 +104,10 @@ double ordered_fraction(const Packing& packing) {
 
 PackingStatistics statistics_of(const Packing& packing, FlatWalls walls) {
   const std::vector<Touch> touches = touches_of(packing, walls);
-  double area = 0.0, overlap = 0.0;
-  for (const double radius : packing.radius) area += std::numbers::pi * radius * radius;
+  double overlap = 0.0;
   for (const Touch& t : touches) overlap = std::max(overlap, t.overlap);
   PackingStatistics s;
-  s.porosity = 1.0 - area / (packing.length * packing.width);
+  s.porosity = porosity_of(packing);
   s.mean_radius = mean_radius(packing);
   s.largest_overlap = overlap / s.mean_radius;
   s.unbalanced_force = unbalanced_force(packing.size(), touches);
