@@ -91,7 +91,8 @@ std::vector<std::string> instability_warnings(const Scene& scene, const ddem::As
   // Finding the limits themselves takes minutes, and 9 GB, for 1e6 discs.
   const bool safe = d.scheme == Scheme::lagged && march.time_step < kAccuracy * flip_limit_bound(a, contact, d, march.dem_critical_time_step);
   if (d.scheme == Scheme::lagged && !safe) {
-    require_memory_of_discs(scene, DiscWork::limits);
+    const MemoryPart limits = memory_of_discs(scene, static_cast<double>(a.size()), DiscWork::limits);
+    require_memory(scene, {&limits, 1});
     if (const double radius = radius_over_limit(a, contact, d); radius >= 1.0) {
       warnings.push_back(fmt::format("the lagged scheme is unstable here: the spectral radius of K B is {:.4g} times what it may be; stiffen the discs "
                                      "(young_modulus) by that factor, or use scheme = \"implicit\"",

@@ -57,7 +57,7 @@ double memory_of_case(const UserCase& c) {
   const std::optional<double> discs = planned_discs(*scene);
   const std::set<std::string> groups = groups_of(c);
   double most = 0.0;
-  for (const auto& [group, work] : {std::pair("", DiscWork::simulation), std::pair("static", DiscWork::statics), std::pair("stability", DiscWork::limits)}) {
+  for (const auto& [group, work] : {std::pair("", DiscWork::limits), std::pair("static", DiscWork::statics), std::pair("stability", DiscWork::limits)}) {
     if (discs && groups.contains(group)) most = std::max(most, memory_of_discs(*scene, *discs, work).bytes);
   }
   return most;
