@@ -113,7 +113,7 @@ void add_bench_command(CLI::App& app, Action& action) {
   command->footer("kernels         every contact law and scheme, 682 to 1e6 discs, in a lattice and at random, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
                   "peers           LAMMPS (lmp on the PATH) and Yade (yade) on the same discs, where they are installed (Debian: lammps, yade)\n"
-                  "Without --only: all of it, in some six minutes. Times are those of a machine that does nothing else.");
+                  "Without --only: all of it, in some five minutes, and a quarter of an hour more with LAMMPS. Times are those of a machine that does nothing else.");
   command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "peers"}));
   CLI::Option* output = command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
   command->add_flag("--force", o->force, "replace files, too, that ddem did not write")->needs(output);
