@@ -4,9 +4,9 @@
 
 namespace ddem {
 
-double lag_share(const Assembly& a, const StaticSolver& solver, const DeformationParameters& deformation, double radius, const MacroStrain& strain,
-                 const InnerSection& section) {
-  const Operators& op = solver.operators();
+double lag_share(const Assembly& a, const StaticSolver& solver, const ContactParameters& contact, const DeformationParameters& deformation, double radius,
+                 const MacroStrain& strain, const InnerSection& section) {
+  const Operators op = make_operators(a, contact, deformation);
   const SchemeStiffness lag = SchemeStiffness::lag(op, deformation, radius);
   const StaticState state = solver.solve(strain);
   const Eigen::VectorXd overlaps = op.overlap * state.fluctuation + affine_overlaps(a, op, strain);

@@ -21,7 +21,7 @@ struct InnerSection {
 
 /// s of the shape in equilibrium under a strain, `radius` the spectral radius of the fixed point (spectra.h). The solver is
 /// of that assembly, with these contacts and deformation. Throws std::invalid_argument where the strains do not converge.
-double lag_share(const Assembly& assembly, const StaticSolver& solver, const DeformationParameters& deformation, double radius, const MacroStrain& strain,
-                 const InnerSection& section);
+double lag_share(const Assembly& assembly, const StaticSolver& solver, const ContactParameters& contact, const DeformationParameters& deformation, double radius,
+                 const MacroStrain& strain, const InnerSection& section);
 
 }  // namespace ddem

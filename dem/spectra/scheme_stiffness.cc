@@ -113,7 +113,7 @@ double spectral_radius(const StrainIteration& t) {
 }
 
 SchemeStiffness SchemeStiffness::converged(const Operators& op) {
-  if (!op.deformable()) return {op, nullptr};
+  if (!op.deformable) return {op, nullptr};
   const auto inner = factorised(op.strain_stiffness + strain_coupling(op));
   return {op, [inner](const Eigen::VectorXd& stress) -> Eigen::VectorXd { return inner->solve(stress); }};
 }

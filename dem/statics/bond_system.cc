@@ -55,17 +55,17 @@ void hold(BondSystem& s, const HeldDofs& held) {
 
 }  // namespace
 
-BondSystem bond_system(const Assembly& a, const Operators& op, const DeformationParameters& deformation, const HeldDofs& held,
+BondSystem bond_system(const Assembly& a, const OperatorFrame& op, const DeformationParameters& deformation, const HeldDofs& held,
                        const EliminationTree& tree, double scale) {
   BondSystem s;
   s.displacements = op.dofs_per_disc;
-  s.strains = op.deformable() ? 3 : 0;
+  s.strains = op.deformable ? 3 : 0;
   s.rows_per_bond = op.rows_per_bond;
   s.place = tree.place;
   s.stiffness = op.stiffness / scale;
   hold(s, held);
   std::vector<double> unit;
-  if (op.deformable()) unit = set_strains(s, a, op.length_scale, deformation, scale);
+  if (op.deformable) unit = set_strains(s, a, op.length_scale, deformation, scale);
   const std::size_t width = 2 * static_cast<std::size_t>(s.unknowns_per_disc()), rows = a.bonds.size() * s.rows_per_bond;
   s.right.resize(rows * width);
   if (!op.symmetric) s.left.resize(rows * width);

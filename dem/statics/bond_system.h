@@ -42,7 +42,7 @@ struct BondSystem {
 };
 
 /// `scale`: of the stiffnesses, N/m.
-BondSystem bond_system(const Assembly& assembly, const Operators& operators, const DeformationParameters& deformation, const HeldDofs& held,
+BondSystem bond_system(const Assembly& assembly, const OperatorFrame& operators, const DeformationParameters& deformation, const HeldDofs& held,
                        const EliminationTree& tree, double scale);
 
 }  // namespace ddem

@@ -4,24 +4,31 @@
 namespace ddem {
 
 namespace baseline {
-FrontKernels front_kernels();
+template <class Real>
+FrontKernels<Real> front_kernels();
 }
 #ifdef DDEM_X86_KERNELS
 namespace avx2 {
-FrontKernels front_kernels();
+template <class Real>
+FrontKernels<Real> front_kernels();
 }
 namespace avx512 {
-FrontKernels front_kernels();
+template <class Real>
+FrontKernels<Real> front_kernels();
 }
 #endif
 
-FrontKernels front_kernels(InstructionSet isa) {
+template <class Real>
+FrontKernels<Real> front_kernels(InstructionSet isa) {
 #ifdef DDEM_X86_KERNELS
-  if (isa == InstructionSet::avx512) return avx512::front_kernels();
-  if (isa == InstructionSet::avx2) return avx2::front_kernels();
+  if (isa == InstructionSet::avx512) return avx512::front_kernels<Real>();
+  if (isa == InstructionSet::avx2) return avx2::front_kernels<Real>();
 #endif
   (void)isa;
-  return baseline::front_kernels();
+  return baseline::front_kernels<Real>();
 }
+
+template FrontKernels<double> front_kernels<double>(InstructionSet);
+template FrontKernels<float> front_kernels<float>(InstructionSet);
 
 }  // namespace ddem

@@ -8,35 +8,44 @@
 
 namespace ddem {
 
-/// Columns are stored one after the other, `stride` apart, their rows first those of the unknowns to be eliminated, then
-/// those of the rest. Rows up to the stride, which is a multiple of 8, are zero.
+/// Numbers in a register of 64 bytes.
+template <class Real>
+inline constexpr std::ptrdiff_t kFrontPack = 64 / sizeof(Real);
+
+/// Real: double or float. Columns are stored one after the other, `stride` apart, their rows first those of the unknowns to be eliminated, then
+/// those of the rest. Rows up to the stride, which is a multiple of kFrontPack, are zero.
+template <class Real>
 struct DenseFront {
   int own = 0, rest = 0;
   std::ptrdiff_t stride = 0;       ///< at least own + rest_stride
-  std::ptrdiff_t rest_stride = 0;  ///< rest, rounded up to a multiple of 8
-  double* lower = nullptr;         ///< `own` columns of A; becomes L, its unit diagonal not stored
-  double* upper = nullptr;         ///< `own` columns of A^T; becomes U^T, A = L D U. Symmetric: room for as much
-  double* schur = nullptr;         ///< rest x rest; what is left of it, A_22 - L_21 D U_12. Symmetric: below the diagonal
-  double* inverse_pivot = nullptr; ///< D^-1
+  std::ptrdiff_t rest_stride = 0;  ///< rest, rounded up to a multiple of kFrontPack
+  Real* lower = nullptr;         ///< `own` columns of A; becomes L, its unit diagonal not stored
+  Real* upper = nullptr;         ///< `own` columns of A^T; becomes U^T, A = L D U. Symmetric: room for as much
+  Real* schur = nullptr;         ///< rest x rest; what is left of it, A_22 - L_21 D U_12. Symmetric: below the diagonal
+  Real* inverse_pivot = nullptr; ///< D^-1
   bool symmetric = true;
 };
 
 /// Columns that a front solves for, `stride` apart: rows as the front's.
+template <class Real>
 struct FrontColumns {
-  double* values = nullptr;
+  Real* values = nullptr;
   std::ptrdiff_t stride = 0;
   int count = 0;
 };
 
+template <class Real>
 struct FrontKernels {
   /// Without exchange of rows. False where a pivot is zero or no number.
-  bool (*eliminate)(const DenseFront&);
+  bool (*eliminate)(const DenseFront<Real>&);
   /// x_1 <- L_11^-1 x_1, x_2 <- x_2 - L_21 x_1.
-  void (*forward)(const DenseFront&, const FrontColumns&);
+  void (*forward)(const DenseFront<Real>&, const FrontColumns<Real>&);
   /// x_1 <- U_11^-1 (D^-1 x_1 - U_12 x_2), U^T the front's `upper`, or its `lower` where symmetric.
-  void (*backward)(const DenseFront&, const FrontColumns&);
+  void (*backward)(const DenseFront<Real>&, const FrontColumns<Real>&);
 };
 
-FrontKernels front_kernels(InstructionSet isa);
+/// For double and float.
+template <class Real>
+FrontKernels<Real> front_kernels(InstructionSet isa);
 
 }  // namespace ddem

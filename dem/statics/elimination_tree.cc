@@ -4,8 +4,16 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 
+#include "dem/statics/nested_dissection.h"
+
 namespace ddem {
 namespace {
+
+/// From here on minimum degree makes the fuller factors.
+constexpr int kManyDiscs = 20000;
+
+/// Of the work of all, at most so much is in one of the subtrees: more of them would keep more of what they leave over until all are done.
+constexpr double kLargestSubtree = 1.0 / 6.0;
 
 using Lists = std::vector<std::vector<int>>;
 
@@ -119,9 +127,10 @@ std::vector<Front> joined_fronts(const std::vector<int>& parent, Lists& coupled)
 
 }  // namespace
 
-EliminationTree elimination_tree(int discs, const Bonds& bonds) {
+EliminationTree elimination_tree(const Packing& packing, const Bonds& bonds) {
+  const int discs = static_cast<int>(packing.size());
   const Lists lists = neighbours(discs, bonds);
-  std::vector<int> order = minimum_degree(lists);
+  std::vector<int> order = discs > kManyDiscs ? nested_dissection(packing, lists) : minimum_degree(lists);
   const std::vector<int> post = postorder(parents(lists, order, inverse(order)));
   std::vector<int> ordered;
   for (const int k : post) ordered.push_back(order[k]);
@@ -153,6 +162,43 @@ EliminationTree elimination_tree(int discs, const Bonds& bonds) {
     if (!tree.fronts[f].rest.empty()) tree.fronts[tree.front_of[tree.fronts[f].rest.front()]].children.push_back(f);
   }
   return tree;
+}
+
+Subtrees subtrees_of(const EliminationTree& tree) {
+  const int fronts = static_cast<int>(tree.fronts.size());
+  if (fronts == 0) return {};
+  if (static_cast<int>(tree.place.size()) <= kManyDiscs) return {{{0, fronts}}, {}};
+  std::vector<int> begin(tree.fronts.size());
+  std::vector<double> work(tree.fronts.size());  // of a front with all below it
+  for (int f = 0; f < fronts; ++f) {
+    const Front& front = tree.fronts[f];
+    const double own = front.own(), all = own + static_cast<double>(front.rest.size());
+    begin[f] = f;
+    work[f] = own * all * all;
+    for (const int child : front.children) {
+      begin[f] = std::min(begin[f], begin[child]);
+      work[f] += work[child];
+    }
+  }
+  double largest = 0.0;
+  std::vector<int> open;
+  for (int f = 0; f < fronts; ++f) {
+    if (tree.fronts[f].rest.empty()) open.push_back(f), largest += kLargestSubtree * work[f];
+  }
+  Subtrees result;
+  while (!open.empty()) {
+    const int f = open.back();
+    open.pop_back();
+    if (work[f] <= largest || tree.fronts[f].children.empty()) {
+      result.ranges.push_back({begin[f], f + 1});
+    } else {
+      result.top.push_back(f);
+      open.insert(open.end(), tree.fronts[f].children.begin(), tree.fronts[f].children.end());
+    }
+  }
+  std::ranges::sort(result.ranges, {}, &Subtrees::Range::begin);
+  std::ranges::sort(result.top);
+  return result;
 }
 
 }  // namespace ddem

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dem/core/bonds.h"
+#include "dem/core/packing.h"
 
 namespace ddem {
 
@@ -22,8 +23,21 @@ struct EliminationTree {
   std::vector<int> front_of;  ///< of each place
 };
 
+/// Fronts that need nothing of each other: what each of these ranges begin .. end - 1 leaves over is that of its last front. The
+/// ranges come to about equal work, however many take part in it; `top` are the fronts that are left, in their order.
+struct Subtrees {
+  struct Range {
+    int begin, end;
+  };
+  std::vector<Range> ranges;
+  std::vector<int> top;
+};
+
+/// One range of all fronts for few discs.
+Subtrees subtrees_of(const EliminationTree& tree);
+
 /// Of discs and not of their unknowns, which all are coupled alike: the graph is six times smaller. The order keeps the
-/// factors sparse (minimum degree); small fronts are joined where that adds few zeros.
-EliminationTree elimination_tree(int discs, const Bonds& bonds);
+/// factors sparse (minimum degree, or nested dissection of many discs); small fronts are joined where that adds few zeros.
+EliminationTree elimination_tree(const Packing& packing, const Bonds& bonds);
 
 }  // namespace ddem

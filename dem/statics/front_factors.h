@@ -8,6 +8,7 @@
 // published correction makes unsymmetric leaves both blocks on the diagonal, of displacements and of strains, positive
 // definite, and the caller's refinement takes out what small pivots leave.
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "dem/kernel/aligned.h"
@@ -17,29 +18,48 @@
 
 namespace ddem {
 
+// Real: double, or float with half of the memory and time. What float leaves out, refinement brings back as long as the regularisation
+// is no smaller than its round-off.
+
+template <class Real>
+class FrontAssembly;
+
+template <class Real>
 class FrontFactors {
  public:
   /// `regularisation` is added to the diagonal of the displacements. The tree is the system's. Throws std::runtime_error
   /// where a pivot vanishes.
   FrontFactors(const BondSystem& system, EliminationTree tree, double regularisation);
 
+  using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
   /// A^-1 of each column.
-  void solve(Eigen::MatrixXd& columns) const;
+  void solve(Columns& columns) const;
+
+  const EliminationTree& tree() const { return tree_; }
 
  private:
-  friend class FrontAssembly;
-  /// Row of each disc of the rest in the front's columns.
-  DenseFront shape_of(const Front& front) const;
+  friend class FrontAssembly<Real>;
+  struct Behind;
+  template <class Job>
+  void each_subtree(const Job& job) const;
+  /// One front of a solve, forward or backward; `local`: room for its rows.
+  void at_front(std::size_t front, Columns& x, Columns& local, Behind* behind, bool forward) const;
+  DenseFront<Real> shape_of(const Front& front) const;
   /// With the columns that are kept.
-  DenseFront kept(std::size_t front) const;
+  DenseFront<Real> kept(std::size_t front) const;
 
   EliminationTree tree_;
   int unknowns_per_disc_;
   bool symmetric_;
-  FrontKernels kernels_;
+  FrontKernels<Real> kernels_;
+  Subtrees subtrees_;
   std::vector<std::size_t> begin_;  ///< of each front's columns
   // The kernels only read them once they are made; that they take them as they make them keeps them from being const.
-  mutable AlignedVector<double> lower_, upper_, inverse_pivot_;
+  mutable AlignedVector<Real> lower_, upper_, inverse_pivot_;
 };
+
+extern template class FrontFactors<double>;
+extern template class FrontFactors<float>;
 
 }  // namespace ddem

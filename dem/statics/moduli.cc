@@ -40,7 +40,7 @@ class SectionWeight {
 
 /// Mean stress (xx, yy, xy) between two sections from the bonds inside, weighted. xx and xy are the force through a
 /// cross-section, the same through each in equilibrium, so exact whatever the weights; yy is a mean over the discs' rows.
-Eigen::Vector3d mean_stress(const Assembly& a, const Operators& op, const StaticState& state, const Section& s) {
+Eigen::Vector3d mean_stress(const Assembly& a, const OperatorFrame& op, const StaticState& state, const Section& s) {
   const SectionWeight weight(s, 0.25 * (s.to - s.from));
   Eigen::Vector3d stress = Eigen::Vector3d::Zero();
   for (std::size_t c = 0; c < a.bonds.size(); ++c) {
@@ -150,7 +150,7 @@ struct MeanResponse {
 };
 
 /// Without a gauge: of a periodic cell.
-MeanResponse response(const Assembly& a, const Operators& op, const StaticState& state, const StripGauge* gauge) {
+MeanResponse response(const Assembly& a, const OperatorFrame& op, const StaticState& state, const StripGauge* gauge) {
   if (gauge != nullptr) {
     const int dofs = op.dofs_per_disc;
     return {{gauge->slope(state, dofs, 0), 0.0, gauge->slope(state, dofs, 1)}, mean_stress(a, op, state, gauge->section())};
@@ -175,7 +175,7 @@ void couple_as_exact_rows(PlaneStiffness& c) {
 /// by x/2; the fluctuation adds to the part along x.
 StiffnessRates homogenise(const Assembly& a, const StaticSolver& solver, const StripGauge* gauge,
                           std::span<const OperatorRates> operator_rate) {
-  const Operators& op = solver.operators();
+  const OperatorFrame& op = solver.operators();
   const std::size_t parameters = operator_rate.size();
   Eigen::Matrix3d strain = Eigen::Matrix3d::Identity(), stress;
   std::vector<Eigen::Matrix3d> strain_rate(parameters), stress_rate(parameters);

@@ -6,7 +6,7 @@
 
 namespace ddem {
 
-OperatorRates operator_rates(const Operators& op, const ContactParameters& contact, const DeformationParameters& deformation,
+OperatorRates operator_rates(const OperatorFrame& op, const ContactParameters& contact, const DeformationParameters& deformation,
                              Parameter parameter) {
   OperatorRates rates;
   rates.stiffness = Eigen::VectorXd::Zero(op.stiffness.size());
@@ -18,7 +18,7 @@ OperatorRates operator_rates(const Operators& op, const ContactParameters& conta
       rates.stiffness[r] = op.stiffness[r] / contact.stiffness_ratio;
     return rates;
   }
-  if (!op.deformable()) throw std::invalid_argument("rigid discs have no softness and no Poisson's ratio");
+  if (!op.deformable) throw std::invalid_argument("rigid discs have no softness and no Poisson's ratio");
   if (parameter == Parameter::log_softness) {
     rates.compliance.fill(1.0);
   } else {

@@ -14,7 +14,7 @@ enum class Parameter {
 
 /// Of the bonds' stiffness and the discs' compliance. Throws std::invalid_argument where the assembly has no such parameter:
 /// lambda = 0, or no deformable discs.
-OperatorRates operator_rates(const Operators& operators, const ContactParameters& contact, const DeformationParameters& deformation,
+OperatorRates operator_rates(const OperatorFrame& operators, const ContactParameters& contact, const DeformationParameters& deformation,
                              Parameter parameter);
 
 }  // namespace ddem

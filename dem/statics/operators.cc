@@ -72,7 +72,6 @@ void add_deformation(Operators& op, const Assembly& a, const DeformationParamete
   op.strain_overlap = sparse(rows, strains, g);
   op.stress = sparse(strains, rows, s);
   op.strain_stiffness = sparse(strains, strains, vc);
-  op.symmetric = correct_slip == stress_of_shear;
 }
 
 }  // namespace
@@ -95,12 +94,24 @@ BondRows bond_rows(const Bonds& b, std::size_t c, double length_scale, const Def
   return r;
 }
 
-Operators make_operators(const Assembly& a, const ContactParameters& contact,
-                         const DeformationParameters& deformation) {
-  Operators op;
+OperatorFrame operator_frame(const Assembly& a, const ContactParameters& contact, const DeformationParameters& deformation) {
+  OperatorFrame op;
   op.dofs_per_disc = contact.has_rotation() ? 3 : 2;
   op.rows_per_bond = contact.has_rotation() ? 2 : 1;
   op.length_scale = length_scale_of(a);
+  op.stiffness.resize(op.rows_per_bond * static_cast<Eigen::Index>(a.bonds.size()));
+  const std::vector<double> k_n = normal_stiffnesses(a, contact);
+  for (Eigen::Index r = 0; r < op.stiffness.size(); ++r) {
+    op.stiffness[r] = k_n[r / op.rows_per_bond] * (r % op.rows_per_bond == 0 ? 1.0 : contact.stiffness_ratio);
+  }
+  op.deformable = deformation.active();
+  if (op.deformable && op.rows_per_bond == 2) op.symmetric = corrects_slip(deformation) == takes_shear_forces(deformation);
+  return op;
+}
+
+Operators make_operators(const Assembly& a, const ContactParameters& contact,
+                         const DeformationParameters& deformation) {
+  Operators op{operator_frame(a, contact, deformation), {}, {}, {}, {}, {}};
   const int bonds = static_cast<int>(a.bonds.size());
   Triplets t;
   for (int c = 0; c < bonds; ++c) {
@@ -113,11 +124,6 @@ Operators make_operators(const Assembly& a, const ContactParameters& contact,
     }
   }
   op.overlap = sparse(op.rows_per_bond * bonds, op.dofs_per_disc * static_cast<Eigen::Index>(a.size()), t);
-  op.stiffness.resize(op.overlap.rows());
-  const std::vector<double> k_n = normal_stiffnesses(a, contact);
-  for (Eigen::Index r = 0; r < op.stiffness.size(); ++r) {
-    op.stiffness[r] = k_n[r / op.rows_per_bond] * (r % op.rows_per_bond == 0 ? 1.0 : contact.stiffness_ratio);
-  }
   op.inverse_mass.resize(op.overlap.cols());
   for (int p = 0; p < static_cast<int>(a.size()); ++p) {
     op.inverse_mass.segment(op.dofs_per_disc * p, 2).setConstant(1.0 / a.mass[p]);
@@ -125,18 +131,35 @@ Operators make_operators(const Assembly& a, const ContactParameters& contact,
       op.inverse_mass[3 * p + 2] = op.length_scale * op.length_scale / a.inertia[p];
     }
   }
-  if (deformation.active()) add_deformation(op, a, deformation);
+  if (op.deformable) add_deformation(op, a, deformation);
   return op;
 }
 
-Eigen::VectorXd affine_overlaps(const Assembly& a, const Operators& op, const MacroStrain& e) {
-  Eigen::VectorXd w(op.overlap.rows());
+Eigen::VectorXd affine_overlaps(const Assembly& a, const OperatorFrame& op, const MacroStrain& e) {
+  Eigen::VectorXd w(op.stiffness.size());
   for (int c = 0; c < static_cast<int>(a.bonds.size()); ++c) {
     const double nx = a.bonds.nx[c], ny = a.bonds.ny[c], length = a.bonds.length[c];
     const double ux = length * (e.xx * nx + 0.5 * e.xy * ny);
     const double uy = length * (0.5 * e.xy * nx + e.yy * ny);
     w[op.rows_per_bond * c] = nx * ux + ny * uy;
     if (op.rows_per_bond == 2) w[2 * c + 1] = -ny * ux + nx * uy;
+  }
+  return w;
+}
+
+Eigen::VectorXd rigid_overlaps(const Assembly& a, const OperatorFrame& op, const Eigen::VectorXd& q) {
+  Eigen::VectorXd w(op.stiffness.size());
+  for (std::size_t c = 0; c < a.bonds.size(); ++c) {
+    const BondRows bond = bond_rows(a.bonds, c, op.length_scale, {});
+    const double* const u = q.data() + static_cast<Eigen::Index>(op.dofs_per_disc) * a.bonds.i[c];
+    const double* const v = q.data() + static_cast<Eigen::Index>(op.dofs_per_disc) * a.bonds.j[c];
+    for (int r = 0; r < op.rows_per_bond; ++r) {
+      const int entries = r == 0 ? 2 : 3;  // a rotation has no part in a normal overlap
+      double sum = 0.0;
+      for (int k = 0; k < entries; ++k) sum += bond.overlap[r][0][k] * u[k];
+      for (int k = 0; k < entries; ++k) sum += bond.overlap[r][1][k] * v[k];
+      w[static_cast<Eigen::Index>(c) * op.rows_per_bond + r] = sum;
+    }
   }
   return w;
 }

@@ -22,19 +22,23 @@ namespace ddem {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-struct Operators {
+/// All but the large matrices, for who takes them bond by bond (bond_rows).
+struct OperatorFrame {
   int dofs_per_disc = 2;  ///< 2, or 3 with rotation
   int rows_per_bond = 1;  ///< 1 (normal), or 2 (normal, tangential)
   double length_scale = 0.0;
+  Eigen::VectorXd stiffness;  ///< diagonal of K, N/m
+  bool deformable = false;    ///< there are strains
+  bool symmetric = true;      ///< S = G^T
+};
+
+struct Operators : OperatorFrame {
   SparseMatrix overlap;           ///< C: (rows_per_bond * bonds) x (dofs_per_disc * discs)
-  Eigen::VectorXd stiffness;      ///< diagonal of K, N/m
   Eigen::VectorXd inverse_mass;   ///< diagonal of M^-1 for q
   SparseMatrix strain_overlap;    ///< G: (rows) x (3 * discs); empty without deformation
   SparseMatrix stress;            ///< S: (3 * discs) x (rows)
   SparseMatrix strain_stiffness;  ///< V_p C_p, block diagonal, 3 x 3 a disc
-  bool symmetric = true;          ///< S = G^T
 
-  bool deformable() const { return strain_overlap.size() > 0; }
   SparseMatrix stiffness_matrix() const;  ///< C^T K C
 };
 
@@ -45,6 +49,8 @@ struct BondRows {
 };
 BondRows bond_rows(const Bonds& bonds, std::size_t c, double length_scale, const DeformationParameters& deformation);
 
+OperatorFrame operator_frame(const Assembly& assembly, const ContactParameters& contact, const DeformationParameters& deformation);
+
 Operators make_operators(const Assembly& assembly, const ContactParameters& contact,
                          const DeformationParameters& deformation);
 
@@ -54,6 +60,9 @@ struct MacroStrain {
 };
 
 /// Overlaps of the bonds when every centre moves by E . x: rows as in Operators::overlap.
-Eigen::VectorXd affine_overlaps(const Assembly& assembly, const Operators& operators, const MacroStrain& strain);
+Eigen::VectorXd affine_overlaps(const Assembly& assembly, const OperatorFrame& operators, const MacroStrain& strain);
+
+/// C q.
+Eigen::VectorXd rigid_overlaps(const Assembly& assembly, const OperatorFrame& operators, const Eigen::VectorXd& q);
 
 }  // namespace ddem

@@ -28,7 +28,7 @@ StaticState pulled(const Assembly& a, const ContactParameters& contact, const De
 }
 
 /// Force that the part right of the plane x = cut exerts on the part left of it.
-Eigen::Vector2d force_through(const Assembly& a, const Operators& op, const StaticState& state, double cut) {
+Eigen::Vector2d force_through(const Assembly& a, const OperatorFrame& op, const StaticState& state, double cut) {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
   for (std::size_t c = 0; c < a.bonds.size(); ++c) {
     const double x_i = a.packing.x[a.bonds.i[c]], x_j = x_i + a.bonds.length[c] * a.bonds.nx[c];
@@ -98,7 +98,7 @@ Eigen::VectorXd right_end_moved(const Assembly& a, double edge_band, int compone
   return q;
 }
 
-StaticSections sections_under(const Assembly& a, const Operators& op, std::span<const StaticState> loads,
+StaticSections sections_under(const Assembly& a, const OperatorFrame& op, std::span<const StaticState> loads,
                               const std::vector<SectionDiscs>& sections) {
   require_valid(sections, a.size());
   StaticSections out;
@@ -128,7 +128,7 @@ StaticSections static_sections(const Assembly& a, const ContactParameters& conta
   require_valid(sections, a.size());
   std::vector<StaticState> loads;
   for (int k = 0; k < (a.packing.period.y > 0.0 ? 2 : 1); ++k) loads.push_back(pulled(a, contact, deformation, edge_band, k));
-  return sections_under(a, make_operators(a, contact, deformation), loads, sections);
+  return sections_under(a, operator_frame(a, contact, deformation), loads, sections);
 }
 
 std::vector<double> static_compliances(const Assembly& a, const ContactParameters& contact,
@@ -136,7 +136,7 @@ std::vector<double> static_compliances(const Assembly& a, const ContactParameter
                                        const std::vector<SectionDiscs>& sections, int component) {
   require_valid(sections, a.size());
   const StaticState state = pulled(a, contact, deformation, edge_band, component);
-  const Operators op = make_operators(a, contact, deformation);
+  const OperatorFrame op = operator_frame(a, contact, deformation);
   const double force = force_through(a, op, state, middle(a.packing))[component];
   std::vector<double> compliances;
   for (const SectionDiscs& s : sections) compliances.push_back(mean_displacement(s, state, op.dofs_per_disc)[component] / force);

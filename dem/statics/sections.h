@@ -58,7 +58,7 @@ std::vector<double> static_compliances(const Assembly& assembly, const ContactPa
 
 /// static_sections() of states that the caller has found: one where only the force along x counts, or two that F and the sections'
 /// displacements are made of, u = S F, whatever forces along x and y go with each. Sections as static_sections().
-StaticSections sections_under(const Assembly& assembly, const Operators& operators, std::span<const StaticState> loads,
+StaticSections sections_under(const Assembly& assembly, const OperatorFrame& operators, std::span<const StaticState> loads,
                               const std::vector<SectionDiscs>& sections);
 
 /// q as in Operators: the discs of the right end's band moved by 1 along x (component 0) or y (1), the others 0.

@@ -25,9 +25,9 @@ struct OperatorRates {
 };
 
 /// Force (x, y) of bond c on its disc i, N.
-Eigen::Vector2d bond_force(const Bonds& bonds, const Operators& operators, const StaticState& state, std::size_t c);
+Eigen::Vector2d bond_force(const Bonds& bonds, const OperatorFrame& operators, const StaticState& state, std::size_t c);
 
-/// Factorises once, solves for any number of strains. The system in (q, eps) is
+/// Factorises once, solves for any number of strains; not from several threads at once. The system in (q, eps) is
 ///   [ C^T K C    -C^T K G      ] [q  ]     [ C^T K e_E ]
 ///   [ -S K C     V C + S K G   ] [eps] = - [ -S K e_E  ],   e_E = affine overlaps;
 /// symmetric positive definite for F and NN; scaled (bond_system.h) and factorised front by front (front_factors.h).
@@ -52,7 +52,7 @@ class StaticSolver {
   ///   M [dq; deps] = [ -C^T dK w; S dK w - d(V C) eps ],  dF = dK w + K (C dq - G deps),  w = K^-1 F,
   /// by the same factorisation; V C eps = S F, so that d(V C) eps is S F times minus d ln of the compliance. Throws as solve().
   StaticState rate(const StaticState& state, const OperatorRates& rates) const;
-  const Operators& operators() const;
+  const OperatorFrame& operators() const;
 
  private:
   struct Impl;

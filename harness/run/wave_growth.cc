@@ -45,7 +45,7 @@ double share_of(const Scene& scene, const ddem::Assembly& a, const MacroStrain& 
   const auto [lo, hi] = network_ends(a);
   const InnerSection section = a.packing.period.x > 0.0 ? InnerSection{lo, hi} : InnerSection{lo + 0.2 * (hi - lo), lo + 0.8 * (hi - lo)};
   try {
-    return lag_share(a, solver, d, fixed_point_radius(a, contact, d), strain, section);
+    return lag_share(a, solver, contact, d, fixed_point_radius(a, contact, d), strain, section);
   } catch (const std::invalid_argument& e) {
     throw InputError(scene.path.string() + ": [deformation]: " + e.what());
   }

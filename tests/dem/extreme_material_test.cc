@@ -62,7 +62,7 @@ PlaneStiffness dense_stiffness(const Assembly& a, const LatticeCase& c) {
   const Eigen::Index rows = op.overlap.rows(), dofs = op.overlap.cols();
   Matrix m = Matrix::Zero(rows + dofs, rows + dofs);
   const Matrix overlap = Eigen::MatrixXd(op.overlap).cast<long double>();
-  if (op.deformable()) {
+  if (op.deformable) {
     Matrix compliance = Matrix::Zero(op.stress.rows(), op.stress.rows());
     for (Eigen::Index p = 0; p < static_cast<Eigen::Index>(a.size()); ++p) {
       const long double v = static_cast<long double>(volume[static_cast<std::size_t>(p)]) / (op.length_scale * static_cast<long double>(op.length_scale));

@@ -58,7 +58,7 @@ struct Problem {
     held.x.assign(assembly.size(), 0);
     for (const int p : edge_discs(assembly.packing, Edge::left, 3.0 * mean_radius(assembly.packing))) held.x[p] = 1;
     held.y = held.theta = held.x;
-    tree = elimination_tree(static_cast<int>(assembly.size()), assembly.bonds);
+    tree = elimination_tree(assembly.packing, assembly.bonds);
     system = bond_system(assembly, op, d, held, tree, kStiffness);
   }
 
@@ -81,7 +81,7 @@ struct Problem {
     Eigen::MatrixXd right(op.overlap.rows(), q + eps), left(q + eps, op.overlap.rows()), strain_stiffness;
     right.leftCols(q) = op.overlap;
     left.topRows(q) = right.leftCols(q).transpose();
-    if (op.deformable()) {
+    if (op.deformable) {
       Eigen::MatrixXd t = Eigen::MatrixXd::Zero(eps, eps);
       for (Eigen::Index d = 0; d < eps; d += 3) t.block<3, 3>(d, d) << 1.0, 1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 1.0;
       t /= std::sqrt(2.0);
@@ -93,7 +93,7 @@ struct Problem {
       left.bottomRows(eps) = -(t.transpose() * op.stress);
     }
     Eigen::MatrixXd a = left * op.stiffness.asDiagonal() * right;
-    if (op.deformable()) a.bottomRightCorner(eps, eps) += strain_stiffness;
+    if (op.deformable) a.bottomRightCorner(eps, eps) += strain_stiffness;
     std::vector<int> to = rows_of_displacements();
     for (const int r : rows_of_strains()) to.push_back(r);
     Eigen::MatrixXd ordered = Eigen::MatrixXd::Zero(system.size(), system.size());
@@ -138,12 +138,12 @@ TEST(FrontFactors, SolveTheDenseSystem) {
     }
     const Eigen::MatrixXd b = random_columns(p.system.size(), 3);
     Eigen::MatrixXd x = b;
-    FrontFactors(p.system, p.tree, regularisation).solve(x);
+    FrontFactors<double>(p.system, p.tree, regularisation).solve(x);
     const double size = static_cast<double>(p.system.size());
     EXPECT_LT((dense * x - b).cwiseAbs().maxCoeff(), size * kRoundOff * dense.cwiseAbs().maxCoeff() * x.cwiseAbs().maxCoeff());
 
     Eigen::MatrixXd alone = b.col(1);
-    FrontFactors(p.system, p.tree, regularisation).solve(alone);
+    FrontFactors<double>(p.system, p.tree, regularisation).solve(alone);
     EXPECT_EQ(alone.col(0), x.col(1)) << "a column depends on those beside it";
   }
 }
@@ -151,13 +151,13 @@ TEST(FrontFactors, SolveTheDenseSystem) {
 TEST(FrontFactors, AVanishingPivotIsAnError) {
   Problem p(random_piece(), kLaws[0]);
   p.system.stiffness.setZero();
-  EXPECT_THROW(FrontFactors(p.system, p.tree, 0.0), std::runtime_error);
+  EXPECT_THROW(FrontFactors<double>(p.system, p.tree, 0.0), std::runtime_error);
 }
 
 /// Each bond joins discs of one front, or of a front and its rest; what a front has left over has room in the front that takes it.
 TEST(EliminationTree, HasRoomForEveryCoupling) {
   const Assembly a = test::random_free_strip();
-  const EliminationTree tree = elimination_tree(static_cast<int>(a.size()), a.bonds);
+  const EliminationTree tree = elimination_tree(a.packing, a.bonds);
   EXPECT_EQ(std::set<int>(tree.place.begin(), tree.place.end()).size(), a.size());
   EXPECT_EQ(tree.fronts.back().end, static_cast<int>(a.size()));
   const auto has = [&](int front, int place) {
@@ -180,7 +180,7 @@ TEST(EliminationTree, HasRoomForEveryCoupling) {
 
 std::vector<double> eliminated(InstructionSet isa, bool symmetric) {
   constexpr int own = 21, rest = 13;
-  DenseFront f{.own = own, .rest = rest, .stride = 40, .rest_stride = 16, .symmetric = symmetric};
+  DenseFront<double> f{.own = own, .rest = rest, .stride = 40, .rest_stride = 16, .symmetric = symmetric};
   Eigen::MatrixXd a = random_columns(own + rest, own + rest);
   if (symmetric) a = (a + a.transpose()).eval();
   a.diagonal().array() += own + rest;
@@ -190,7 +190,7 @@ std::vector<double> eliminated(InstructionSet isa, bool symmetric) {
   schur.topRows(rest) = a.bottomRightCorner(rest, rest);
   Eigen::VectorXd pivots(own);
   f.lower = lower.data(), f.upper = upper.data(), f.schur = schur.data(), f.inverse_pivot = pivots.data();
-  const FrontKernels kernels = front_kernels(isa);
+  const FrontKernels<double> kernels = front_kernels<double>(isa);
   EXPECT_TRUE(kernels.eliminate(f));
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(f.stride, 2);
   x.topRows(own + rest) = random_columns(own + rest, 2);
