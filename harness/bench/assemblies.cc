@@ -30,9 +30,8 @@ double step_of_mass(double mass, double fraction) {
 }
 
 ddem::Assembly random_strip(std::size_t discs) {
-  const double part = static_cast<double>(discs) / kPaperDiscs, area = kPaperLength * kPaperWidth * part;
-  const double width = discs == kPaperDiscs ? kPaperWidth : std::sqrt(area / kAspect);
-  const RandomPacking spec{.length = area / width, .width = width, .discs = static_cast<std::int64_t>(discs)};
+  const auto [length, width] = random_size(discs);
+  const RandomPacking spec{.length = length, .width = width, .discs = static_cast<std::int64_t>(discs)};
   const double gap = gap_for_coordination(jammed_cell(spec, {}), kCoordination);  // every gap of copies is there as often as they are
   Packing p = random_packing(spec, {});
   p.period = {};  // the edges of a strip
@@ -75,6 +74,12 @@ std::array<int, 2> lattice_size(std::size_t discs) {
   if (discs == kPaperDiscs) return {62, 11};
   const int rows = std::max(2, 2 * static_cast<int>(std::lround(0.5 * std::sqrt(static_cast<double>(discs) / kAspect))));
   return {static_cast<int>(std::lround(static_cast<double>(discs) / rows)), rows};
+}
+
+std::array<double, 2> random_size(std::size_t discs) {
+  const double part = static_cast<double>(discs) / kPaperDiscs, area = kPaperLength * kPaperWidth * part;
+  const double width = discs == kPaperDiscs ? kPaperWidth : std::sqrt(area / kAspect);
+  return {area / width, width};
 }
 
 double lattice_step(double fraction) {

@@ -38,6 +38,9 @@ ddem::Assembly strip_of(Arrangement arrangement, std::size_t discs);
 /// Columns and rows of about so many discs, five times as long as wide.
 std::array<int, 2> lattice_size(std::size_t discs);
 
+/// Length and width (m) of a random strip of so many discs: the paper's, or five times as long as wide.
+std::array<double, 2> random_size(std::size_t discs);
+
 /// A step of this fraction of the critical one without shear stiffness, 2/sqrt(6) sqrt(m/k_n) (theory section 3).
 double lattice_step(double fraction);
 /// The same of the lightest disc.

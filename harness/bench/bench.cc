@@ -84,6 +84,19 @@ Json peer_json(const PeerTime& p) {
           {"displacement_difference", number_or_status(p.difference, "the motions cannot be compared")}};
 }
 
+Json scaling_json(const std::vector<ScalingPoint>& points) {
+  Json list = Json::array();
+  for (const ScalingPoint& p : points) {
+    const bool ok = p.status == "ok";
+    list.push_back({{"task", p.task},
+                    {"packing", name_of(p.arrangement)},
+                    {"discs", p.discs},
+                    {"seconds", ok ? Json(p.seconds) : Json{{"status", p.status}}},
+                    {"peak_bytes", ok ? Json(p.bytes) : Json{{"status", p.status}}}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::size_t bench_work(const BenchPlan& plan) {
@@ -93,12 +106,15 @@ std::size_t bench_work(const BenchPlan& plan) {
   if (plan.peers) {
     for (const PeerPlan& peer : plan.peer_plans) work += peer.sizes.size();
   }
+  if (plan.scaling) work += scaling_work(plan.sizes);
   return work;
 }
 
 BenchResults run_bench(const BenchPlan& plan, const std::function<void()>& progress) {
   const auto start = std::chrono::steady_clock::now();
   BenchResults results;
+  // First: a program that is started counts what the starting one holds as memory of its own.
+  if (plan.scaling) results.scaling = measure_scaling(plan.sizes, progress);
   results.triad_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   results.triad_one_thread = triad_gb_per_s(1);
   results.triad = std::max(results.triad_one_thread, triad_gb_per_s(results.triad_threads));
@@ -140,6 +156,7 @@ Json bench_json(const BenchResults& r) {
   for (const FemKernelTime& k : r.fem_kernels) j["fem_kernels"].push_back(fem_kernel_json(k));
   j["work_precision"] = Json::array();
   for (const PrecisionPoint& p : r.work_precision) j["work_precision"].push_back(precision_json(p));
+  j["scaling"] = scaling_json(r.scaling);
   if (!r.fem_failure.empty()) j["fem_reason"] = r.fem_failure;
   j["peers"] = Json::array();
   for (const PeerTime& p : r.peers.times) j["peers"].push_back(peer_json(p));

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "harness/bench/roofline.h"
+#include "harness/bench/scaling_figure.h"
 #include "harness/provenance/provenance.h"
 #include "reports/number.h"
 
@@ -131,6 +132,7 @@ reports::Report bench_report(const BenchResults& r) {
     report.sections.push_back({.heading = "Cost of a bond and step", .figures = {roofline_figure(r.kernels, bandwidths)}, .tables = {kernel_table(r.kernels)}});
   }
   if (!r.fem_kernels.empty()) report.sections.push_back({.heading = "Speed of the finite elements", .tables = {fem_kernel_table(r.fem_kernels)}});
+  if (!r.scaling.empty()) report.sections.push_back({.heading = "Time and memory against the number of discs", .figures = {scaling_figure(r.scaling)}, .tables = {scaling_table(r.scaling)}});
   if (!r.work_precision.empty()) {
     reports::Section section{.heading = "Work-precision", .figures = {precision_figure(r.work_precision)}, .tables = {precision_table(r.work_precision)}};
     if (!r.fem_failure.empty()) section.paragraphs.push_back("No finite elements: " + r.fem_failure);

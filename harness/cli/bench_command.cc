@@ -11,6 +11,7 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/claim_outputs.h"
 #include "harness/io/errors.h"
+#include "harness/io/memory.h"
 #include "harness/io/progress.h"
 
 namespace ddem::harness {
@@ -18,6 +19,7 @@ namespace {
 
 struct BenchOptions {
   std::string only, folder;
+  std::size_t largest = 1000000;
   bool json = false, force = false;
 };
 
@@ -59,6 +61,19 @@ void print_peers(const bench::Peers& peers) {
   if (!peers.reason.empty()) fmt::print("\npeers: {}\n", peers.reason);
 }
 
+void print_scaling(const std::vector<bench::ScalingPoint>& points) {
+  if (points.empty()) return;
+  fmt::print("\n{:<13} {:<8} {:>9} {:>10} {:>10}\n", "command", "packing", "discs", "seconds", "memory");
+  for (const bench::ScalingPoint& p : points) {
+    fmt::print("{:<13} {:<8} {:>9} ", p.task, bench::name_of(p.arrangement), p.discs);
+    if (p.status == "ok") {
+      fmt::print("{:>10.3g} {:>10}\n", p.seconds, bytes_text(p.bytes));
+    } else {
+      fmt::print("{}\n", p.status);
+    }
+  }
+}
+
 struct Files {
   explicit Files(const std::filesystem::path& folder) : json(folder / "bench.json"), html(folder / "bench.html") {}
   std::filesystem::path json, html;
@@ -82,7 +97,9 @@ int run(const BenchOptions& o) {
     plan.kernels = o.only == "kernels";
     plan.work_precision = o.only == "work-precision";
     plan.peers = o.only == "peers";
+    plan.scaling = o.only == "scaling";
   }
+  plan.sizes = bench::scaling_plan(o.largest);
   if (!o.folder.empty()) claim_bench_folder(o);
   bench::BenchResults results;
   {
@@ -96,6 +113,7 @@ int run(const BenchOptions& o) {
     return static_cast<int>(ExitCode::done);
   }
   fmt::print("triad: {:.1f} GB/s with one thread, {:.1f} at most ({} threads)\n", results.triad_one_thread, results.triad, results.triad_threads);
+  print_scaling(results.scaling);
   print_kernels(results.kernels);
   print_fem_kernels(results.fem_kernels);
   print_precision(results.work_precision);
@@ -112,9 +130,11 @@ void add_bench_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
   command->footer("kernels         every contact law and scheme, 682 to 1e6 discs, in a lattice and at random, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
+                  "scaling         time and memory of whole commands (pack, moduli, stability, run) from 1e3 discs to --largest\n"
                   "peers           LAMMPS (lmp on the PATH) and Yade (yade) on the same discs, where they are installed (Debian: lammps, yade)\n"
                   "Without --only: all of it, in some five minutes, and a quarter of an hour more with LAMMPS. Times are those of a machine that does nothing else.");
-  command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "peers"}));
+  command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "scaling", "peers"}));
+  command->add_option("--largest", o->largest, "discs of the largest strip of scaling")->check(CLI::Range(1000, 100000000))->capture_default_str();
   CLI::Option* output = command->add_option("-o,--output", o->folder, "folder for bench.json and bench.html, with figures");
   command->add_flag("--force", o->force, "replace files, too, that ddem did not write")->needs(output);
   command->add_flag("--json", o->json, "print the result as JSON");

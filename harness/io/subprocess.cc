@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -75,7 +76,7 @@ class Child {
     if (leftover_.child <= 0) return true;
     pid_t ended;
     do {
-      ended = ::waitpid(leftover_.child, &status_, flags);
+      ended = ::wait4(leftover_.child, &status_, flags, &usage_);
     } while (ended < 0 && errno == EINTR);
     if (ended == 0) return false;
     CleanupSection section;  // where a signal ended it and is to end us, we stop here
@@ -84,6 +85,7 @@ class Child {
   }
 
   int status() const { return status_; }
+  double peak_memory() const { return 1024.0 * static_cast<double>(usage_.ru_maxrss); }
 
   /// With its process group.
   void kill() const {
@@ -94,6 +96,7 @@ class Child {
  private:
   Leftover leftover_;
   int status_ = 0;
+  rusage usage_{};
 };
 
 /// The last megabyte of a stream, and its lines as they come.
@@ -238,6 +241,7 @@ SubprocessResult run(const std::string& program, const Start& start, const LineC
   result.standard_error = error_text.finish();
   result.standard_output = out_text.finish();
   child.wait(0);
+  result.peak_memory = child.peak_memory();
   if (WIFSIGNALED(child.status())) {
     result.signal = WTERMSIG(child.status());
   } else {

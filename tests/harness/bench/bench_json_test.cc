@@ -17,7 +17,7 @@ BenchPlan small_plan() {
   plan.discs = {{16}, {0.5}, 0.0};
   plan.fem_meshes = {{2, {33, 1}}};
   plan.fem_repetitions = 1;
-  plan.peers = false;
+  plan.peers = plan.scaling = false;
   return plan;
 }
 
@@ -43,6 +43,7 @@ TEST(Bench, HasItsPartsAsJson) {
     }
     EXPECT_EQ(j["fem_kernels"][0]["over_one_thread"], 1.0);
   }
+  EXPECT_EQ(j["scaling"], Json::array());
   EXPECT_EQ(j["peers"], Json::array());
   EXPECT_EQ(j["peers_reason"], "not asked for");
   EXPECT_GT(j["triad_gb_per_s"].get<double>(), 0.0);
