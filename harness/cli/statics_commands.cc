@@ -6,6 +6,7 @@
 #include <span>
 
 #include "harness/cli/commands.h"
+#include "harness/cli/packing_figure.h"
 #include "harness/cli/print_json.h"
 #include "harness/cli/scene_argument.h"
 #include "harness/io/atomic_file.h"
@@ -17,6 +18,7 @@
 #include "harness/run/run_json.h"
 #include "harness/scene/csv.h"
 #include "harness/scene/units.h"
+#include "reports/svg.h"
 
 namespace ddem::harness {
 namespace {
@@ -55,16 +57,17 @@ int moduli(const ModuliOptions& o) {
 }
 
 struct PackOptions {
-  std::string scene, output;
+  std::string scene, output, figure;
   bool json = false, force = false;
 };
 
 int pack(const PackOptions& o) {
   const Scene scene = load_scene(o.scene, Purpose::packing);
-  claim_outputs({{o.output, OutputKind::packing_csv}}, files_read_by(scene), o.force);
+  claim_outputs({{o.output, OutputKind::packing_csv}, {o.figure, OutputKind::figure}}, files_read_by(scene), o.force);
   const Packing p = build_packing(scene);
   const PackingReport report = report_on_packing(scene, p);
   write_file(o.output, csv_text("x,y,radius", std::array<std::span<const double>, 3>{p.x, p.y, p.radius}));
+  if (!o.figure.empty()) write_file(o.figure, reports::render_svg(packing_figure(p)));
   say(packing_text(report));
   if (o.json) print_json(packing_json(report));
   return 0;
@@ -85,9 +88,10 @@ void add_moduli_command(CLI::App& app, Action& action) {
 void add_pack_command(CLI::App& app, Action& action) {
   auto o = std::make_shared<PackOptions>();
   CLI::App* command = app.add_subcommand("pack", "The packing that a scene describes, as CSV (x,y,radius in metres)");
-  command->footer("Example: ddem pack bar.toml -o discs.csv");
+  command->footer("Example: ddem pack bar.toml -o discs.csv --figure discs.svg");
   command->add_option("SCENE", o->scene, "scene file (TOML); [assembly] alone is enough")->required();
   command->add_option("-o,--output", o->output, "CSV file to write")->required();
+  command->add_option("--figure", o->figure, "SVG file of the discs, their radii and distances");
   command->add_flag("--force", o->force, "replace files, too, that ddem did not write");
   command->add_flag("--json", o->json, "print what the packing is like as JSON");
   command->callback([o, &action] { action = [o] { return pack(*o); }; });

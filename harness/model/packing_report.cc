@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <variant>
 
 #include "dem/assembly/assembly.h"
@@ -36,6 +38,7 @@ PackingReport report_on_packing(const Scene& scene, const Packing& packing) {
   packings::FlatWalls walls;
   const auto* random = std::get_if<RandomPacking>(&scene.assembly.packing);
   if (random != nullptr) {
+    r.jammed = true;
     walls = walls_of(*random, periodic);
     r.tiling = tiling_of(*random, periodic);
   }
@@ -77,6 +80,8 @@ Json packing_json(const PackingReport& r) {
   j["unbalanced_force"] = s.unbalanced_force;
   j["touching_pairs"] = s.contacts;
   j["unsupported_discs"] = s.rattlers;
+  j["held_coordination"] = s.held_coordination;
+  j["fabric_anisotropy"] = s.fabric_anisotropy;
   j["ordered_fraction"] = s.ordered_fraction;
   j["tiles"] = {r.tiling.nx, r.tiling.ny};
   j["discs_in_a_tile"] = r.tiling.discs;
@@ -98,6 +103,9 @@ std::string packing_text(const PackingReport& r) {
     text += fmt::format("{} x {} copies of one periodic cell of {} discs\n", r.tiling.nx, r.tiling.ny, r.tiling.discs);
   text += fmt::format("largest overlap {:.2g} mean radii, {:.1f} % of the discs in hexagonal order\n", s.largest_overlap,
                       100.0 * s.ordered_fraction);
+  if (r.jammed && s.contacts > 0)
+    text += fmt::format("{} contacts hold {} discs, {:.3f} each (isostatic: 4), {} rattle; anisotropy of the fabric {:.3f} (by chance {:.3f})\n",
+                        s.contacts, static_cast<std::int64_t>(r.discs) - s.rattlers, s.held_coordination, s.rattlers, s.fabric_anisotropy, 1.0 / std::sqrt(s.contacts));
   const std::string gap = r.bond_gap ? fmt::format(" (gaps up to {:.4f} mean radii)", *r.bond_gap) : "";
   text += fmt::format("coordination {:.3f}{}; as cut: {} bonds, {} rattlers, coordination {:.3f} without them\n", r.coordination,
                       gap, r.bonds, r.rattlers, r.network_coordination);

@@ -17,6 +17,7 @@ struct PackingReport {
   std::size_t discs = 0;
   double length = 0.0, width = 0.0;  ///< m
   double smallest_radius = 0.0, largest_radius = 0.0;  ///< m
+  bool jammed = false;  ///< a random packing, whose contacts hold each other
   packings::PackingStatistics statistics;
   packings::Tiling tiling;  ///< 1 x 1 for what is jammed as a whole, and for lattices and files
 

@@ -20,8 +20,10 @@
 #include "harness/io/atomic_file.h"
 #include "harness/io/digest.h"
 #include "harness/io/message.h"
+#include "harness/io/progress.h"
 #include "harness/io/regular_file.h"
 #include "harness/io/seal.h"
+#include "meshes/packings/tiling.h"
 
 namespace ddem::harness {
 namespace {
@@ -66,9 +68,18 @@ std::vector<double> doubles(std::string_view bytes) {
   return values;
 }
 
+/// What takes longer than a moment says how far it is.
+Packing jammed(const packings::RandomSpec& spec) {
+  if (spec.discs <= packings::kLargestJammed) return packings::random_jammed(spec);
+  Progress progress(1, "jamming");
+  return packings::random_jammed(spec, [&](double overlap) {
+    progress.set_label(fmt::format("jamming: largest overlap {:.2g} mean radii, {:.2g} in the end", overlap, packings::kJammedOverlap));
+  });
+}
+
 Packing made_or_cached(const packings::RandomSpec& spec) {
   const auto folder = packing_cache_folder();
-  if (!folder) return packings::random_jammed(spec);
+  if (!folder) return jammed(spec);
   const fs::path file = packing_cache_file(*folder, spec);
   if (auto packing = read_cached_packing(file, spec)) {
     std::error_code ignored;
@@ -78,7 +89,7 @@ Packing made_or_cached(const packings::RandomSpec& spec) {
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(file, ignored)))
     message("{}: not the packing that was stored there: it is made anew", file.string());
-  Packing packing = packings::random_jammed(spec);
+  Packing packing = jammed(spec);
   write_cached_packing(file, spec, packing);
   return packing;
 }

@@ -5,13 +5,17 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dem/core/narrow.h"
 #include "harness/model/packing_store.h"
 #include "harness/model/valid_table.h"
 #include "harness/scene/csv.h"
+#include "harness/scene/limits.h"
 #include "meshes/packings/porosity.h"
 #include "meshes/packings/tile.h"
 
 namespace ddem::harness {
+
+static_assert(kJammedUnasked == packings::kLargestJammed);
 
 packings::FlatWalls walls_of(const RandomPacking& packing, Periodicity periodic) {
   const bool flat = packing.walls == Walls::flat;
@@ -32,11 +36,12 @@ packings::Grading grading_of(const RandomPacking& p) {
 }  // namespace
 
 packings::Tiling tiling_of(const RandomPacking& p, Periodicity periodic) {
+  if (p.cell == Cell::whole) return {1, 1, narrow<int>(p.discs, "assembly.discs")};
   const bool walled = walls_of(p, periodic) != packings::FlatWalls{};
   if (walled && p.discs > packings::kLargestJammed)
     throw std::invalid_argument(
-        fmt::format("{} discs between flat walls would have to be jammed as a whole, which takes too long above {}: take "
-                    "fewer discs, or walls = \"periodic\"",
+        fmt::format("{} discs between flat walls would have to be jammed as a whole, which takes minutes above {}: say so by "
+                    "cell = \"whole\", or take fewer discs, or walls = \"periodic\"",
                     p.discs, packings::kLargestJammed));
   return packings::tiling_of(p.discs, p.length, p.width);
 }

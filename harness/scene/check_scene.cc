@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/scene/check_rules.h"
+#include "harness/scene/limits.h"
 
 namespace ddem::harness {
 namespace {
@@ -67,6 +68,9 @@ void check_assembly(Values& values, bool discs_needed) {
     require(values, "assembly.length");
     require(values, "assembly.width");
     if (discs_needed) require(values, "assembly.discs");
+    if (values.given("assembly.cell") && values.has("assembly.discs") && values.integer("assembly.discs") <= kJammedUnasked) {
+      values.reject("assembly.cell", fmt::format("means nothing of up to {} discs, which are always jammed as a whole", kJammedUnasked), "leave it out");
+    }
     if (values.is("assembly.grading", "sieve")) require(values, "assembly.sieve");
   }
 }

@@ -13,7 +13,7 @@ constexpr std::string_view any_packing = "random | hexagonal | file";
 // scheme = "none" switches the table [deformation] off as a whole, whatever else stands in it.
 constexpr OnlyWith only_with[] = {
     {"assembly.discs", "assembly.packing", "random | hexagonal"},
-    {"assembly.seed | assembly.radius_ratio | assembly.walls | assembly.grading | assembly.porosity", "assembly.packing", "random"},
+    {"assembly.seed | assembly.radius_ratio | assembly.walls | assembly.grading | assembly.porosity | assembly.cell", "assembly.packing", "random"},
     {"assembly.sieve", "assembly.grading", "sieve"},
     {"assembly.close_packed_along | assembly.columns | assembly.rows | assembly.radius", "assembly.packing", "hexagonal"},
     {"assembly.file | assembly.bonds", "assembly.packing", "file"},

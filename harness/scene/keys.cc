@@ -80,7 +80,7 @@ constexpr KeySpec keys[] = {
     into<&RandomPacking::width, &HexagonalRectangle::width, &FilePacking::width>(quantity("assembly", "width", length, positive, no_default,
              "of the strip, along y; for a file: the period where periodic, else of what the discs fill (left out: found from them)")),
     into<&RandomPacking::discs, &HexagonalRectangle::discs>(integer("assembly", "discs", from(1, max_discs), no_default,
-            "how many; random ones above 20000 are copies of one periodic cell of 1000 to 4000 discs")),
+            "how many")),
     into<&RandomPacking::seed>(integer("assembly", "seed", non_negative, "1",
             "random: another seed is another packing; the same seed is the same packing, to the bit")),
     into<&RandomPacking::radius_ratio>(number("assembly", "radius_ratio", from(1, 10), "1.67", "random: largest over smallest radius")),
@@ -95,6 +95,8 @@ constexpr KeySpec keys[] = {
     into<&RandomPacking::walls>(choice("assembly", "walls", "periodic | flat", "\"periodic\"",
            "random: packed in a periodic cell, whose bonds across free edges are cut, or between flat walls at all "
            "edges that are not periodic")),
+    into<&RandomPacking::cell>(choice("assembly", "cell", "copies | whole", "\"copies\"",
+           "random, of more than 20000 discs: copies of one periodic cell of 1000 to 4000 discs, or all jammed as a whole, which takes minutes, of 1e5 some ten")),
     into<&HexagonalPacking::close_packed_along>(choice("assembly", "close_packed_along", "x | y", "\"x\"",
            "hexagonal: direction of the rows of touching discs")),
     into<&HexagonalLattice::columns>(integer("assembly", "columns", from(1, max_discs), no_default,

@@ -18,6 +18,7 @@ namespace ddem::harness {
 
 enum class Axis { x, y };
 enum class Walls { periodic, flat };
+enum class Cell { copies, whole };
 enum class Grading { uniform, log_normal, sieve };
 
 /// [assembly] packing = "random": jammed polydisperse discs in a rectangle.
@@ -27,6 +28,7 @@ struct RandomPacking {
   std::int64_t seed = 1;
   double radius_ratio = 1.67;  ///< largest over smallest radius
   Walls walls = Walls::periodic;
+  Cell cell = Cell::copies;  ///< of more discs than are jammed in a moment
   Grading grading = Grading::uniform;
   std::filesystem::path sieve = {};      ///< CSV radius,passing
   std::optional<double> porosity = {};  ///< without it that at which the discs jam

@@ -23,9 +23,8 @@ namespace {
 constexpr double kFirstSolidFraction = 0.88;
 constexpr double kSqueeze = 1.01;
 
-constexpr double kOverlap = 8e-4;       // largest overlap in the end, mean radii
 constexpr double kNoOverlap = 2e-5;     // below it a packing counts as loose, mean radii
-constexpr double kAim = 0.8;            // of kOverlap: where the last shrinking aims at
+constexpr double kAim = 0.8;            // of kJammedOverlap: where the last shrinking aims at
 // Largest net force over the mean contact force, on the way and in the end. Roughly balanced packings come to the last
 // overlap in a quarter of the iterations, but then need several times as many to settle there.
 constexpr double kRoughBalance = 1e-3, kForceBalance = 1e-4;
@@ -36,7 +35,7 @@ constexpr double kShrink = 1.0, kShortestStep = 1e-2;
 
 // Forces summed in another order round differently. Radii are scaled one after the other, and round alike.
 // The last balancing may press a little harder.
-constexpr double kSameBalance = 1.01 * kForceBalance, kSameOverlap = 1.1 * kOverlap, kRoundOff = 1e-12;
+constexpr double kSameBalance = 1.01 * kForceBalance, kSameOverlap = 1.1 * kJammedOverlap, kRoundOff = 1e-12;
 constexpr double kFarthestMove = 0.15;  // of the cell: see is_near()
 
 constexpr int kPatience = 60000;          // iterations of one minimisation: most take a few thousand
@@ -109,13 +108,14 @@ void check_room(const Packing& packing) {
 /// approach the jamming point from the jammed side; where a packing came apart, half of the step is tried.
 class JammingSearch {
  public:
-  JammingSearch(Packing start, FlatWalls walls) : walls_(walls), discs_(std::move(start), walls) {}
+  JammingSearch(Packing start, FlatWalls walls, const std::function<void(double)>& progress)
+      : walls_(walls), discs_(std::move(start), walls), progress_(progress) {}
 
-  /// Until all contacts are in balance and the largest overlap is within kOverlap.
+  /// Until all contacts are in balance and the largest overlap is within kJammedOverlap.
   void run() {
     while (iterations_ < kMostIterations) {
       Outcome outcome = relax(kRoughBalance);
-      const bool near = outcome == Outcome::jammed && state_.largest_overlap <= kOverlap * unit();
+      const bool near = outcome == Outcome::jammed && state_.largest_overlap <= kJammedOverlap * unit();
       if (near) outcome = relax(kForceBalance);
       if (outcome != Outcome::jammed)
         grow_back(outcome);
@@ -140,6 +140,7 @@ class JammingSearch {
   Outcome relax(double force_balance) {
     state_ = discs_.minimise({force_balance, kNoOverlap * unit(), kPatience});
     iterations_ += state_.iterations;
+    if (progress_) progress_(state_.largest_overlap / unit());
     if (!state_.converged) return Outcome::undecided;
     return state_.largest_overlap > kNoOverlap * unit() ? Outcome::jammed : Outcome::loose;
   }
@@ -148,7 +149,7 @@ class JammingSearch {
     jammed_ = discs_.packing();
     bracket_ -= step_;
     // Shrinking by the fraction f of what affine motion suggests leaves about 1 - 2 f/3 of the overlaps.
-    const double surplus = 1.0 - kAim * kOverlap * unit() / state_.largest_overlap;
+    const double surplus = 1.0 - kAim * kJammedOverlap * unit() / state_.largest_overlap;
     const double wanted = std::min(kShrink, 1.5 * surplus) * state_.mean_overlap / (2.0 * unit());
     step_ = std::min(wanted, 0.5 * bracket_);
     if (step_ < kShortestStep * wanted) {
@@ -177,6 +178,7 @@ class JammingSearch {
 
   FlatWalls walls_;
   SoftDiscs discs_;
+  const std::function<void(double)>& progress_;
   SoftDiscs::State state_;
   std::optional<Packing> jammed_;  ///< the last one, and how much more its radii may at most shrink
   double bracket_ = std::numeric_limits<double>::infinity();
@@ -285,11 +287,11 @@ bool can_be_jammed_from(const Packing& packing, const RandomSpec& spec) {
   return state.converged && state.largest_overlap > kNoOverlap * unit && state.largest_overlap <= kSameOverlap * unit;
 }
 
-Packing random_jammed(const RandomSpec& spec) {
+Packing random_jammed(const RandomSpec& spec, const std::function<void(double)>& progress) {
   check_spec(spec);
   Packing start = random_points(spec);
   check_room(start);
-  JammingSearch search(std::move(start), spec.walls);
+  JammingSearch search(std::move(start), spec.walls, progress);
   search.run();
   return tidied(search.packing());
 }

@@ -2,6 +2,7 @@
 // Random packings of discs at the jamming point: dense, and without voids.
 
 #include <cstdint>
+#include <functional>
 
 #include "dem/core/packing.h"
 #include "meshes/packings/flat_walls.h"
@@ -29,7 +30,11 @@ struct RandomSpec {
 /// Throws std::invalid_argument on an impossible spec (among others: a cell so narrow that a pair of discs
 /// could touch through two images, more than 1e5 discs), std::runtime_error when no jammed packing in force
 /// balance was found within 1e6 iterations of the minimiser.
-Packing random_jammed(const RandomSpec& spec);
+/// Many discs take minutes: `progress` is told now and then how far the largest overlap has come down, in mean radii.
+Packing random_jammed(const RandomSpec& spec, const std::function<void(double largest_overlap)>& progress = {});
+
+/// The largest overlap in the end, mean radii.
+inline constexpr double kJammedOverlap = 8e-4;
 
 /// Whether a packing of unknown origin can be random_jammed(spec): numbers are finite, centres inside and in order, radii
 /// those of the spec, overlaps and forces what is promised above, and discs near where the seed puts them before they are

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <thread>
 #include <utility>
 
-#include "dem/assembly/contacts.h"
 
 namespace ddem::packings {
 namespace {
@@ -25,6 +25,9 @@ constexpr double kSkin = 0.5, kSafe = 0.9;
 // Discs whose positions and forces stay in the innermost cache while their pairs are looked at.
 constexpr std::size_t kBlock = 256;
 
+// Up to so many discs are one chunk. Of more, two chunks for as many again, so that two threads share them evenly.
+constexpr std::size_t kChunk = 20000;
+
 // Keeps the distance of two centres in one place from being 0; far below the rounding of any other.
 constexpr double kSmallestDistance2 = 1e-200;
 
@@ -32,7 +35,15 @@ constexpr double kSmallestDistance2 = 1e-200;
 
 SoftDiscs::SoftDiscs(Packing start, FlatWalls walls) : packing_(std::move(start)), walls_(walls) {
   for (auto* values : {&vx_, &vy_, &fx_, &fy_}) values->assign(packing_.size(), 0.0);
+  make_chunks();
   build_list();
+}
+
+void SoftDiscs::make_chunks() {
+  const std::size_t count = packing_.size() > kChunk ? 2 * (packing_.size() / kChunk) : 1;
+  chunks_.resize(count);
+  for (std::size_t c = 0; c < count; ++c) chunks_[c].begin = packing_.size() * c / count, chunks_[c].end = packing_.size() * (c + 1) / count;
+  team_ = std::make_unique<Team>(static_cast<int>(std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency()))));
 }
 
 void SoftDiscs::scale_radii(double factor) {
@@ -46,48 +57,75 @@ void SoftDiscs::build_list() {
   listed_y_ = packing_.y;
   moved_ = 0.0;
   const std::vector<ClosePair> close = close_pairs(packing_, skin_);
+  std::vector<std::vector<ClosePair>> inner(chunks_.size()), outer(chunks_.size());
+  const auto chunk_of = [&](int disc) {
+    const auto after = std::ranges::upper_bound(chunks_, static_cast<std::size_t>(disc), {}, &Chunk::begin);
+    return static_cast<std::size_t>(after - chunks_.begin()) - 1;
+  };
+  for (const ClosePair& c : close) {
+    const std::size_t of_i = chunk_of(c.i), of_j = chunk_of(c.j);
+    if (of_i == of_j) {
+      inner[of_i].push_back(c);
+    } else {
+      outer[of_i].push_back(c);
+      outer[of_j].push_back({c.j, c.i, -c.dx, -c.dy, c.gap});
+    }
+  }
+  team_->run([&](int thread) {
+    const auto [begin, end] = team_->part(chunks_.size(), thread);
+    for (std::size_t c = begin; c < end; ++c) {
+      std::ranges::stable_sort(outer[c], {}, &ClosePair::i);
+      chunks_[c].inner = arranged(inner[c], packing_, static_cast<int>(chunks_[c].begin));
+      chunks_[c].outer = arranged(outer[c], packing_, static_cast<int>(chunks_[c].begin));
+    }
+  });
+}
 
-  // A counting sort: by block of discs and place among the pairs of disc i; those through a period come last.
+/// A counting sort of pairs that are ordered by i: by block of discs and place among the pairs of disc i; those through a period last.
+SoftDiscs::Pairs SoftDiscs::arranged(const std::vector<ClosePair>& close, const Packing& packing, int first_disc) {
   const auto is_shifted = [&](const ClosePair& c) {
-    return c.dx != packing_.x[c.j] - packing_.x[c.i] || c.dy != packing_.y[c.j] - packing_.y[c.i];
+    return c.dx != packing.x[c.j] - packing.x[c.i] || c.dy != packing.y[c.j] - packing.y[c.i];
   };
   std::vector<std::size_t> key(close.size());
-  std::size_t most = 1;
+  std::size_t most = 1, blocks = 1;
+  const auto block = [&](const ClosePair& c) { return static_cast<std::size_t>(c.i - first_disc) / kBlock; };
   for (std::size_t k = 0; k < close.size(); ++k) {
     key[k] = k > 0 && close[k - 1].i == close[k].i ? key[k - 1] + 1 : 0;
     most = std::max(most, key[k] + 1);
+    blocks = std::max(blocks, block(close[k]) + 1);
   }
-  const std::size_t last = most * (packing_.size() / kBlock + 1);
-  for (std::size_t k = 0; k < close.size(); ++k)
-    key[k] = is_shifted(close[k]) ? last : key[k] + most * (static_cast<std::size_t>(close[k].i) / kBlock);
+  const std::size_t last = most * blocks;
+  for (std::size_t k = 0; k < close.size(); ++k) key[k] = is_shifted(close[k]) ? last : key[k] + most * block(close[k]);
   std::vector<std::size_t> start(last + 2, 0);
   for (const std::size_t k : key) ++start[k + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
 
-  pairs_.first_shifted = start[last];
-  for (auto* indices : {&pairs_.i, &pairs_.j}) indices->resize(close.size());
-  for (auto* shifts : {&pairs_.shift_x, &pairs_.shift_y}) shifts->resize(close.size() - pairs_.first_shifted);
+  Pairs pairs;
+  pairs.first_shifted = start[last];
+  for (auto* indices : {&pairs.i, &pairs.j}) indices->resize(close.size());
+  for (auto* shifts : {&pairs.shift_x, &pairs.shift_y}) shifts->resize(close.size() - pairs.first_shifted);
   for (std::size_t k = 0; k < close.size(); ++k) {
     const ClosePair& c = close[k];
     const std::size_t place = start[key[k]]++;
-    pairs_.i[place] = c.i;
-    pairs_.j[place] = c.j;
-    if (place < pairs_.first_shifted) continue;
-    pairs_.shift_x[place - pairs_.first_shifted] = c.dx - (packing_.x[c.j] - packing_.x[c.i]);
-    pairs_.shift_y[place - pairs_.first_shifted] = c.dy - (packing_.y[c.j] - packing_.y[c.i]);
+    pairs.i[place] = c.i;
+    pairs.j[place] = c.j;
+    if (place < pairs.first_shifted) continue;
+    pairs.shift_x[place - pairs.first_shifted] = c.dx - (packing.x[c.j] - packing.x[c.i]);
+    pairs.shift_y[place - pairs.first_shifted] = c.dy - (packing.y[c.j] - packing.y[c.i]);
   }
+  return pairs;
 }
 
-void SoftDiscs::gather(std::size_t first, std::size_t count) {
+void SoftDiscs::gather(Batch& batch, const Pairs& pairs, std::size_t first, std::size_t count) const {
   for (std::size_t k = 0; k < count; ++k) {
-    const int i = pairs_.i[first + k], j = pairs_.j[first + k];
-    batch_.dx[k] = packing_.x[j] - packing_.x[i];
-    batch_.dy[k] = packing_.y[j] - packing_.y[i];
-    batch_.radii[k] = packing_.radius[i] + packing_.radius[j];
+    const int i = pairs.i[first + k], j = pairs.j[first + k];
+    batch.dx[k] = packing_.x[j] - packing_.x[i];
+    batch.dy[k] = packing_.y[j] - packing_.y[i];
+    batch.radii[k] = packing_.radius[i] + packing_.radius[j];
   }
-  for (std::size_t k = std::max(first, pairs_.first_shifted); k < first + count; ++k) {
-    batch_.dx[k - first] += pairs_.shift_x[k - pairs_.first_shifted];
-    batch_.dy[k - first] += pairs_.shift_y[k - pairs_.first_shifted];
+  for (std::size_t k = std::max(first, pairs.first_shifted); k < first + count; ++k) {
+    batch.dx[k - first] += pairs.shift_x[k - pairs.first_shifted];
+    batch.dy[k - first] += pairs.shift_y[k - pairs.first_shifted];
   }
 }
 
@@ -103,25 +141,51 @@ void SoftDiscs::Batch::press(std::size_t count) {
   }
 }
 
-void SoftDiscs::scatter(std::size_t first, std::size_t count, Overlaps& overlaps) {
-  Overlaps all = overlaps;  // in registers: as far as the compiler knows, a force may be stored into `overlaps`
-  for (std::size_t k = 0; k < count; ++k) {
-    const int i = pairs_.i[first + k], j = pairs_.j[first + k];
-    fx_[i] -= batch_.dx[k];
-    fy_[i] -= batch_.dy[k];
-    fx_[j] += batch_.dx[k];
-    fy_[j] += batch_.dy[k];
-    all.add(batch_.overlap[k]);
+void SoftDiscs::add_inner_forces(Chunk& chunk) {
+  Batch& batch = chunk.batch;
+  const Pairs& pairs = chunk.inner;
+  Overlaps all;  // in registers: as far as the compiler knows, a force may be stored into the chunk's
+  for (std::size_t first = 0; first < pairs.i.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, pairs.i.size() - first);
+    gather(batch, pairs, first, count);
+    batch.press(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const int i = pairs.i[first + k], j = pairs.j[first + k];
+      fx_[i] -= batch.dx[k];
+      fy_[i] -= batch.dy[k];
+      fx_[j] += batch.dx[k];
+      fy_[j] += batch.dy[k];
+      all.add(batch.overlap[k]);
+    }
   }
-  overlaps = all;
+  chunk.overlaps = all;
 }
 
-void SoftDiscs::add_wall_forces(Overlaps& overlaps) {
+/// On i alone, and its overlap counted once: where i < j.
+void SoftDiscs::add_outer_forces(Chunk& chunk) {
+  Batch& batch = chunk.batch;
+  const Pairs& pairs = chunk.outer;
+  Overlaps all;
+  for (std::size_t first = 0; first < pairs.i.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, pairs.i.size() - first);
+    gather(batch, pairs, first, count);
+    batch.press(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const int i = pairs.i[first + k];
+      fx_[i] -= batch.dx[k];
+      fy_[i] -= batch.dy[k];
+      if (i < pairs.j[first + k]) all.add(batch.overlap[k]);
+    }
+  }
+  chunk.overlaps.add(all);
+}
+
+void SoftDiscs::add_wall_forces(Chunk& chunk) {
   const auto press = [&](const std::vector<double>& centre, double end, std::vector<double>& force) {
-    for (std::size_t i = 0; i < packing_.size(); ++i) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const double low = packing_.radius[i] - centre[i], high = packing_.radius[i] - (end - centre[i]);
-      overlaps.add(std::max(0.0, low));
-      overlaps.add(std::max(0.0, high));
+      chunk.overlaps.add(std::max(0.0, low));
+      chunk.overlaps.add(std::max(0.0, high));
       force[i] += std::max(0.0, low) - std::max(0.0, high);
     }
   };
@@ -129,27 +193,9 @@ void SoftDiscs::add_wall_forces(Overlaps& overlaps) {
   if (walls_.y) press(packing_.y, packing_.width, fy_);
 }
 
-SoftDiscs::State SoftDiscs::evaluate_forces() {
-  std::fill(fx_.begin(), fx_.end(), 0.0);
-  std::fill(fy_.begin(), fy_.end(), 0.0);
-  Overlaps overlaps;
-  for (std::size_t first = 0; first < pairs_.i.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, pairs_.i.size() - first);
-    gather(first, count);
-    batch_.press(count);
-    scatter(first, count, overlaps);
-  }
-  add_wall_forces(overlaps);
-  State state;
-  state.contacts = overlaps.contacts;
-  state.largest_overlap = overlaps.largest;
-  if (overlaps.contacts > 0) state.mean_overlap = overlaps.sum / overlaps.contacts;
-  return state;
-}
-
-SoftDiscs::Products SoftDiscs::products() const {
+void SoftDiscs::add_products(Chunk& chunk) const {
   Products p;
-  for (std::size_t i = 0; i < packing_.size(); ++i) {
+  for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
     const double force2 = fx_[i] * fx_[i] + fy_[i] * fy_[i];
     const double velocity2 = vx_[i] * vx_[i] + vy_[i] * vy_[i];
     p.power += fx_[i] * vx_[i] + fy_[i] * vy_[i];
@@ -158,23 +204,62 @@ SoftDiscs::Products SoftDiscs::products() const {
     p.largest_force2 = std::max(p.largest_force2, force2);
     p.largest_velocity2 = std::max(p.largest_velocity2, velocity2);
   }
-  return p;
+  chunk.products = p;
+}
+
+void SoftDiscs::Products::add(const Products& more) {
+  power += more.power;
+  force2 += more.force2;
+  velocity2 += more.velocity2;
+  largest_force2 = std::max(largest_force2, more.largest_force2);
+  largest_velocity2 = std::max(largest_velocity2, more.largest_velocity2);
+}
+
+void SoftDiscs::evaluate(Chunk& chunk) {
+  for (auto* forces : {&fx_, &fy_}) {
+    std::fill(forces->begin() + static_cast<std::ptrdiff_t>(chunk.begin), forces->begin() + static_cast<std::ptrdiff_t>(chunk.end), 0.0);
+  }
+  add_inner_forces(chunk);
+  add_outer_forces(chunk);
+  add_wall_forces(chunk);
+  add_products(chunk);
+}
+
+SoftDiscs::State SoftDiscs::evaluate() {
+  team_->run([&](int thread) {
+    const auto [begin, end] = team_->part(chunks_.size(), thread);
+    for (std::size_t c = begin; c < end; ++c) evaluate(chunks_[c]);
+  });
+  Overlaps overlaps;
+  products_ = {};
+  for (const Chunk& chunk : chunks_) {
+    overlaps.add(chunk.overlaps);
+    products_.add(chunk.products);
+  }
+  State state;
+  state.contacts = overlaps.contacts;
+  state.largest_overlap = overlaps.largest;
+  if (overlaps.contacts > 0) state.mean_overlap = overlaps.sum / overlaps.contacts;
+  return state;
 }
 
 /// v <- keep v + push F, then a semi-implicit Euler step; the list is built again where discs have left its
 /// skin.
 void SoftDiscs::advance(double dt, double keep, double push) {
-  const auto move = [&](std::vector<double>& centres, std::vector<double>& velocities, const std::vector<double>& forces) {
+  const auto move = [&](std::vector<double>& centres, std::vector<double>& velocities, const std::vector<double>& forces, std::size_t begin, std::size_t end) {
     double* __restrict x = centres.data();
     double* __restrict v = velocities.data();
     const double* __restrict f = forces.data();
-    for (std::size_t i = 0; i < centres.size(); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       v[i] = keep * v[i] + push * f[i];
       x[i] += dt * v[i];
     }
   };
-  move(packing_.x, vx_, fx_);
-  move(packing_.y, vy_, fy_);
+  team_->run([&](int thread) {
+    const auto [begin, end] = team_->part(packing_.size(), thread);
+    move(packing_.x, vx_, fx_, begin, end);
+    move(packing_.y, vy_, fy_, begin, end);
+  });
 }
 
 /// Two discs that approach each other cover the skin together. How far discs have moved is bounded by their
@@ -197,8 +282,8 @@ SoftDiscs::State SoftDiscs::minimise(const Goal& goal) {
   int downhill = 0;
   State state;
   for (int iteration = 0; iteration < goal.most_iterations; ++iteration) {
-    state = evaluate_forces();
-    const Products now = products();
+    state = evaluate();
+    const Products& now = products_;
     if (state.contacts > 0) state.unbalanced_force = std::sqrt(now.largest_force2) / state.mean_overlap;
     state.iterations = iteration + 1;
     state.converged =

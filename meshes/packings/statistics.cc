@@ -44,10 +44,9 @@ std::vector<Touch> touches_of(const Packing& packing, FlatWalls walls) {
   return touches;
 }
 
-/// Two forces hold a disc only if they are collinear.
-int count_rattlers(std::size_t discs, const std::vector<Touch>& touches) {
+/// A mark for each disc that is none of the packing's skeleton. Two forces hold a disc only if they are collinear.
+std::vector<char> rattlers_of(std::size_t discs, const std::vector<Touch>& touches) {
   std::vector<char> gone(discs, 0);
-  int rattlers = 0;
   for (bool changed = true; changed;) {
     changed = false;
     std::vector<int> held(discs, 0);
@@ -59,11 +58,30 @@ int count_rattlers(std::size_t discs, const std::vector<Touch>& touches) {
     for (std::size_t i = 0; i < discs; ++i)
       if (!gone[i] && held[i] < 3) {
         gone[i] = 1;
-        ++rattlers;
         changed = true;
       }
   }
-  return rattlers;
+  return gone;
+}
+
+/// Contacts with walls count as those with discs do: each holds two discs, or one and its image.
+double held_coordination(const std::vector<char>& gone, const std::vector<Touch>& touches) {
+  const auto held = std::ranges::count(gone, 0);
+  const auto holding = std::ranges::count_if(touches, [&](const Touch& t) { return !gone[t.i] && (t.j < 0 || !gone[t.j]); });
+  return held == 0 ? 0.0 : 2.0 * static_cast<double>(holding) / static_cast<double>(held);
+}
+
+/// In two dimensions the eigenvalues of <n n> differ by |<exp(2 i angle)>|.
+double fabric_anisotropy(const std::vector<Touch>& touches) {
+  std::complex<double> sum = 0.0;
+  double contacts = 0.0;
+  for (const Touch& t : touches) {
+    if (t.j < 0) continue;
+    const std::complex<double> direction(t.fx, t.fy);
+    sum += direction * direction / std::norm(direction);
+    contacts += 1.0;
+  }
+  return contacts > 0.0 ? std::abs(sum) / contacts : 0.0;
 }
 
 double unbalanced_force(std::size_t discs, const std::vector<Touch>& touches) {
@@ -112,7 +130,10 @@ PackingStatistics statistics_of(const Packing& packing, FlatWalls walls) {
   s.largest_overlap = overlap / s.mean_radius;
   s.unbalanced_force = unbalanced_force(packing.size(), touches);
   s.contacts = static_cast<int>(touches.size());
-  s.rattlers = count_rattlers(packing.size(), touches);
+  const std::vector<char> gone = rattlers_of(packing.size(), touches);
+  s.rattlers = static_cast<int>(std::ranges::count_if(gone, [](char mark) { return mark != 0; }));
+  s.held_coordination = held_coordination(gone, touches);
+  s.fabric_anisotropy = fabric_anisotropy(touches);
   s.ordered_fraction = ordered_fraction(packing);
   return s;
 }

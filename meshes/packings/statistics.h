@@ -13,6 +13,12 @@ struct PackingStatistics {
   double unbalanced_force = 0.0; ///< largest net force on a disc over the mean contact force; forces are overlaps
   int contacts = 0;              ///< pairs that overlap, and discs that overlap a wall
   int rattlers = 0;              ///< discs that no contacts hold: fewer than three, peeled
+  /// Contacts of a disc on average, without rattlers and theirs. Rigid frictionless discs in balance have 4, and as many as they need
+  /// and no more at the jamming point (O'Hern, Silbert, Liu and Nagel, Phys. Rev. E 68, 011306, 2003). 0 where nothing is held.
+  double held_coordination = 0.0;
+  /// Difference of the eigenvalues of the fabric tensor <n n> of all contacts between discs (Satake, 1978): 0 where contacts have no
+  /// preferred direction, 1 where all are parallel. n directions at random have the root mean square 1/sqrt(n).
+  double fabric_anisotropy = 0.0;
   /// Fraction of discs in hexagonal surroundings: six neighbours (gaps up to 0.5 mean radii) and |psi_6| > 0.9, where
   /// psi_6 = <exp(6 i angle)> over the neighbours (Nelson and Halperin, Phys. Rev. B 19, 2457, 1979). Rattlers and the
   /// discs at free edges count as disordered. 1 in a lattice.

@@ -27,6 +27,8 @@ TEST(PackingStatistics, OfALattice) {
   EXPECT_NEAR(s.largest_overlap, 0.02 / 1.01, 1e-12);
   EXPECT_EQ(s.contacts, 3 * 120);
   EXPECT_EQ(s.rattlers, 0);
+  EXPECT_DOUBLE_EQ(s.held_coordination, 6.0);
+  EXPECT_LT(s.fabric_anisotropy, 1e-12);  // three directions, 60 degrees apart
   EXPECT_LT(s.unbalanced_force, 1e-12);
 }
 
@@ -43,6 +45,30 @@ TEST(PackingStatistics, CountsWalls) {
   s = statistics_of(disc, {.x = false, .y = true});
   EXPECT_NEAR(s.unbalanced_force, 0.1 / 0.1, 1e-12);
   EXPECT_EQ(statistics_of(disc).contacts, 0);
+}
+
+// A row along a diagonal: all contacts are parallel; none is held. Of a cross, half of them are.
+TEST(PackingStatistics, TellsDirections) {
+  Packing row;
+  row.length = row.width = 20.0;
+  const double step = 1.99 / std::numbers::sqrt2;
+  for (int k = 0; k < 5; ++k) row.x.push_back(5.0 + k * step), row.y.push_back(5.0 + k * step), row.radius.push_back(1.0);
+  PackingStatistics s = statistics_of(row);
+  EXPECT_EQ(s.contacts, 4);
+  EXPECT_NEAR(s.fabric_anisotropy, 1.0, 1e-12);
+  EXPECT_EQ(s.rattlers, 5);
+  EXPECT_EQ(s.held_coordination, 0.0);
+
+  const Packing cross{{10.0, 8.01, 11.99, 10.0, 10.0}, {10.0, 10.0, 10.0, 8.01, 11.99}, {1.0, 1.0, 1.0, 1.0, 1.0}, {}, 20.0, 20.0};
+  EXPECT_LT(statistics_of(cross).fabric_anisotropy, 1e-12);
+
+  // A disc in the square of four, held by all, and the four by it and by walls.
+  const double out = 1.99 / std::numbers::sqrt2;
+  const Packing box{{2.4, 2.4 - out, 2.4 + out, 2.4 - out, 2.4 + out}, {2.4, 2.4 - out, 2.4 - out, 2.4 + out, 2.4 + out}, {1.0, 1.0, 1.0, 1.0, 1.0}, {}, 4.8, 4.8};
+  s = statistics_of(box, {.x = true, .y = true});
+  EXPECT_EQ(s.rattlers, 0);
+  EXPECT_EQ(s.contacts, 12);
+  EXPECT_DOUBLE_EQ(s.held_coordination, 24.0 / 5.0);
 }
 
 // Equal discs crystallise, and that is seen; discs of the ratio of the paper do not.

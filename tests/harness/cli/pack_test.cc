@@ -179,6 +179,24 @@ TEST_F(Pack, GradingsAndPorosities) {
   refused("grading = \"sieve\"\nsieve = \"curve.csv\"\n", {"at most ten times the smallest"});
 }
 
+TEST_F(Pack, TellsContactsAndFabricAndDrawsThem) {
+  const Json j = packed("discs = 330\n");
+  EXPECT_NEAR(j["held_coordination"].get<double>(), 4.05, 0.15);
+  EXPECT_LT(j["fabric_anisotropy"].get<double>(), 0.3);
+  EXPECT_THAT(text_, HasSubstr("(isostatic: 4)"));
+  const SubprocessResult drawn = ddem({"pack", path("scene.toml"), "-o", path("discs.csv"), "--figure", path("discs.svg")});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.standard_error;
+  EXPECT_THAT(read("discs.svg"), HasSubstr("pair correlation g"));
+  EXPECT_EQ(ddem({"pack", path("scene.toml"), "-o", path("discs.csv"), "--figure", path("scene.toml")}).exit_code, 2);  // no input is replaced
+}
+
+TEST_F(Pack, FewDiscsAreJammedAsAWholeAnyway) {
+  write("scene.toml", "[assembly]\npacking = \"random\"\nlength = \"8 mm\"\nwidth = \"2 mm\"\ndiscs = 300\ncell = \"whole\"\n");
+  const SubprocessResult result = ddem({"pack", path("scene.toml"), "-o", path("discs.csv")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.standard_error, HasSubstr("scene.toml:6: assembly.cell = \"whole\": means nothing of up to 20000 discs"));
+}
+
 TEST_F(Pack, TrustsNoCacheFileThatIsNotItsOwn) {
   const packings::RandomSpec spec{.length = 4e-3, .width = 3e-3, .discs = 120, .seed = 5};
   const Packing packing = packings::random_jammed(spec);
