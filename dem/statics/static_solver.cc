@@ -10,8 +10,8 @@ namespace ddem {
 namespace {
 
 constexpr double kRegularisation = 1e-11;
-// Of more discs the factors are single, which takes half of the memory and time: refinement takes a few rounds more. Only for symmetric
-// equations, whose factors stay positive with a regularisation above the round-off of float.
+// Of more discs the factors are single, which takes half of the memory and time: refinement takes a few rounds more. With a
+// regularisation above the round-off of float their pivots stay positive.
 constexpr std::size_t kManyDiscs = 20000;
 constexpr double kSingleRegularisation = 1e-6;
 constexpr double kResidual = 1e-12;
@@ -51,7 +51,7 @@ class Factors {
   using Either = std::variant<FrontFactors<double>, FrontFactors<float>>;
 
   static Either made(const BondSystem& system, EliminationTree tree) {
-    if (!system.symmetric() || system.place.size() <= kManyDiscs) return FrontFactors<double>(system, std::move(tree), kRegularisation);
+    if (system.place.size() <= kManyDiscs) return FrontFactors<double>(system, std::move(tree), kRegularisation);
     return FrontFactors<float>(system, std::move(tree), kSingleRegularisation);
   }
 

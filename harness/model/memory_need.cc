@@ -17,13 +17,17 @@ namespace {
 // Bytes a disc, as measured from 2e4 to 1e7 discs; a test compares them with what the program takes. Most of a simulation's are
 // the vectors of the iterations that find its critical step, and of implicit strains their spectrum.
 constexpr double kPacking = 500.0, kRigid = 1500.0, kLagged = 2000.0, kImplicit = 7000.0, kLaggedLimits = 10500.0, kFactors = 430.0, kSoftFactors = 2000.0, kVariantFactors = 3000.0;
+// Of many discs, whose factors are single.
+constexpr double kManyDiscs = 20000.0, kManyFactors = 270.0, kManySoftFactors = 1400.0;
 
 double bytes_a_disc(const Scene& scene, double discs, DiscWork work) {
   switch (work) {
     case DiscWork::packing: return kPacking;
     case DiscWork::simulation: return !scene.deformation ? kRigid : scene.deformation->scheme == Scheme::lagged ? kLagged : kImplicit;
     case DiscWork::limits: return !scene.deformation ? kRigid : scene.deformation->scheme == Scheme::lagged ? kLaggedLimits : kImplicit;
-    case DiscWork::statics: return (scene.deformation ? kSoftFactors : kFactors) * std::log2(discs + 2.0);
+    case DiscWork::statics:
+      if (discs > kManyDiscs) return (scene.deformation ? kManySoftFactors : kManyFactors) * std::log2(discs);
+      return (scene.deformation ? kSoftFactors : kFactors) * std::log2(discs + 2.0);
   }
   return 0.0;
 }

@@ -44,8 +44,8 @@ double bytes_taken(std::vector<std::string> arguments) {
 class MemoryNeed : public Cli {
  protected:
   /// Of `ddem COMMAND scene.toml` over what is told of its discs.
-  double taken_over_told(const std::vector<std::string>& command, const std::string& tables, Purpose purpose, DiscWork work) const {
-    write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 120\nrows = 100\nradius = \"0.1 mm\"\n" + tables);
+  double taken_over_told(const std::vector<std::string>& command, const std::string& tables, Purpose purpose, DiscWork work, int rows = 100) const {
+    write("scene.toml", "[assembly]\npacking = \"hexagonal\"\ncolumns = 120\nrows = " + std::to_string(rows) + "\nradius = \"0.1 mm\"\n" + tables);
     const SceneResult scene = read_scene(path("scene.toml"), {purpose});
     EXPECT_TRUE(scene) << to_string(scene.violations);
     const double told = memory_of_discs(*scene, planned_discs(*scene).value(), work).bytes;
@@ -73,6 +73,8 @@ TEST_F(MemoryNeed, IsWhatDiscsTake) {
   expect_near_one(taken_over_told({"run"}, large_step + soft + "\"lagged\"\n", Purpose::simulation, DiscWork::limits), "run, lagged, near its limit");
   expect_near_one(taken_over_told({"moduli"}, solid, Purpose::statics, DiscWork::statics), "moduli");
   expect_near_one(taken_over_told({"moduli"}, solid + soft + "\"lagged\"\n", Purpose::statics, DiscWork::statics), "moduli of deformable discs");
+  expect_near_one(taken_over_told({"moduli"}, solid, Purpose::statics, DiscWork::statics, 300), "moduli of many");
+  expect_near_one(taken_over_told({"moduli"}, solid + soft + "\"lagged\"\n", Purpose::statics, DiscWork::statics, 300), "moduli of many deformable discs");
 }
 
 /// With the tables and the HDF5 file, which are made in memory. What more samples, probes and snapshots take, beside few.
