@@ -43,7 +43,7 @@ class Factors {
     const auto* single = std::get_if<FrontFactors<float>>(&factors_);
     if (single == nullptr) return false;
     EliminationTree tree = single->tree();
-    factors_ = FrontFactors<double>(system, std::move(tree), kRegularisation);
+    factors_.emplace<FrontFactors<double>>(system, std::move(tree), kRegularisation);  // what is there goes before: both are large
     return true;
   }
 

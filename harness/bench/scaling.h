@@ -27,7 +27,7 @@ struct ScalingPlan {
 };
 
 /// 1e3 discs, and ten times as many each time up to `largest`; two minutes at most for one of them.
-ScalingPlan scaling_plan(std::size_t largest = 1000000);
+ScalingPlan scaling_plan(std::size_t largest = 100000);
 
 /// Calls of `progress` that measure_scaling() makes.
 std::size_t scaling_work(const ScalingPlan& plan);
