@@ -19,10 +19,10 @@ struct DenseFront {
   int own = 0, rest = 0;
   std::ptrdiff_t stride = 0;       ///< at least own + rest_stride
   std::ptrdiff_t rest_stride = 0;  ///< rest, rounded up to a multiple of kFrontPack
-  Real* lower = nullptr;         ///< `own` columns of A; becomes L, its unit diagonal not stored
-  Real* upper = nullptr;         ///< `own` columns of A^T; becomes U^T, A = L D U. Symmetric: room for as much
-  Real* schur = nullptr;         ///< rest x rest; what is left of it, A_22 - L_21 D U_12. Symmetric: below the diagonal
-  Real* inverse_pivot = nullptr; ///< D^-1
+  Real* lower = nullptr;           ///< `own` columns of A; becomes L, its unit diagonal not stored
+  Real* upper = nullptr;           ///< `own` columns of A^T; becomes U^T, A = L D U. Symmetric: room for as much
+  Real* schur = nullptr;           ///< rest x rest; what is left of it, A_22 - L_21 D U_12. Symmetric: below the diagonal
+  Real* inverse_pivot = nullptr;   ///< D^-1
   bool symmetric = true;
 };
 

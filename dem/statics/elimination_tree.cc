@@ -9,9 +9,6 @@
 namespace ddem {
 namespace {
 
-/// From here on minimum degree makes the fuller factors.
-constexpr int kManyDiscs = 20000;
-
 /// Of the work of all, at most so much is in one of the subtrees: more of them would keep more of what they leave over until all are done.
 constexpr double kLargestSubtree = 1.0 / 6.0;
 

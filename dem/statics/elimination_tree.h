@@ -9,6 +9,9 @@
 
 namespace ddem {
 
+/// More discs than this are ordered, shared by threads and rounded for memory and time; fewer for the last bit.
+inline constexpr int kManyDiscs = 20000;
+
 /// Discs that are eliminated together, as one dense matrix: those of the places begin .. end - 1.
 struct Front {
   int begin = 0, end = 0;

@@ -42,7 +42,7 @@ class FrontAssembly {
   FrontAssembly(const BondSystem& system, FrontFactors<Real>& factors, double regularisation, const BondsOfFronts& bonds, Kept& kept)
       : s_(system), factors_(factors), n_(system.unknowns_per_disc()), regularisation_(regularisation), bonds_(bonds), kept_(kept), row_(system.place.size()) {
     std::size_t panel = 0;
-    for (const Front& f : factors.tree_.fronts) {
+    for (const Front& f : factors.tree_->fronts) {
       const DenseFront<Real> d = factors.shape_of(f);
       panel = std::max(panel, static_cast<std::size_t>(d.own * d.stride));
     }
@@ -57,7 +57,7 @@ class FrontAssembly {
 
   /// Of those at the top, in their order.
   void eliminate(std::size_t f) {
-    const Front& front = factors_.tree_.fronts[f];
+    const Front& front = factors_.tree_->fronts[f];
     front_ = factors_.kept(f);
     if (front_.symmetric) front_.upper = panel_.data();
     schur_.assign(static_cast<std::size_t>(front_.rest * front_.rest_stride), Real(0));
@@ -72,7 +72,6 @@ class FrontAssembly {
   }
 
  private:
-
   /// Where an entry of the front stands that is not above the diagonal, or any of its columns where it is not symmetric.
   Real* column(int c) const {
     return c < front_.own ? front_.lower + c * front_.stride : front_.schur + (c - front_.own) * front_.rest_stride - front_.own;
@@ -150,14 +149,14 @@ class FrontAssembly {
       AlignedVector<Real>().swap(kept);
       return;
     }
-    const auto size = static_cast<std::ptrdiff_t>(factors_.tree_.fronts[child].rest.size()) * n_;
+    const auto size = static_cast<std::ptrdiff_t>(factors_.tree_->fronts[child].rest.size()) * n_;
     const std::size_t begin = left_over_.size() - static_cast<std::size_t>(size * rounded_up<Real>(size));
     add_left_over(child, left_over_.data() + begin);
     left_over_.resize(begin);
   }
 
   void add_left_over(int child, const Real* values) {
-    const std::vector<int>& rest = factors_.tree_.fronts[child].rest;
+    const std::vector<int>& rest = factors_.tree_->fronts[child].rest;
     const std::ptrdiff_t stride = rounded_up<Real>(static_cast<std::ptrdiff_t>(rest.size()) * n_);
     find_runs(rest);
     for (std::size_t b = 0; b < runs_.size(); ++b) {
@@ -192,11 +191,11 @@ class FrontAssembly {
 };
 
 template <class Real>
-FrontFactors<Real>::FrontFactors(const BondSystem& system, EliminationTree tree, double regularisation)
+FrontFactors<Real>::FrontFactors(const BondSystem& system, std::shared_ptr<const EliminationTree> tree, double regularisation)
     : tree_(std::move(tree)), unknowns_per_disc_(system.unknowns_per_disc()), symmetric_(system.symmetric()),
-      kernels_(front_kernels<Real>(best_instruction_set())), subtrees_(subtrees_of(tree_)) {
+      kernels_(front_kernels<Real>(best_instruction_set())), subtrees_(subtrees_of(*tree_)) {
   std::size_t entries = 0;
-  for (const Front& f : tree_.fronts) {
+  for (const Front& f : tree_->fronts) {
     begin_.push_back(entries);
     const DenseFront<Real> d = shape_of(f);
     entries += static_cast<std::size_t>(d.own * d.stride);
@@ -204,8 +203,8 @@ FrontFactors<Real>::FrontFactors(const BondSystem& system, EliminationTree tree,
   lower_.resize(entries);
   if (!symmetric_) upper_.resize(entries);
   inverse_pivot_.resize(static_cast<std::size_t>(system.size()));
-  const BondsOfFronts bonds = bonds_of_fronts(system, tree_);
-  typename FrontAssembly<Real>::Kept kept(tree_.fronts.size());
+  const BondsOfFronts bonds = bonds_of_fronts(system, *tree_);
+  typename FrontAssembly<Real>::Kept kept(tree_->fronts.size());
   each_subtree([&](const auto& next) {
     FrontAssembly<Real> assembly(system, *this, regularisation, bonds, kept);
     while (const auto range = next()) assembly.run(*range);
@@ -241,10 +240,10 @@ DenseFront<Real> FrontFactors<Real>::shape_of(const Front& front) const {
 
 template <class Real>
 DenseFront<Real> FrontFactors<Real>::kept(std::size_t f) const {
-  DenseFront<Real> d = shape_of(tree_.fronts[f]);
+  DenseFront<Real> d = shape_of(tree_->fronts[f]);
   d.lower = lower_.data() + begin_[f];
   if (!symmetric_) d.upper = upper_.data() + begin_[f];
-  d.inverse_pivot = inverse_pivot_.data() + static_cast<std::ptrdiff_t>(tree_.fronts[f].begin) * unknowns_per_disc_;
+  d.inverse_pivot = inverse_pivot_.data() + static_cast<std::ptrdiff_t>(tree_->fronts[f].begin) * unknowns_per_disc_;
   return d;
 }
 
@@ -259,7 +258,7 @@ struct FrontFactors<Real>::Behind {
 template <class Real>
 void FrontFactors<Real>::at_front(std::size_t f, Columns& x, Columns& local, Behind* behind, bool forward) const {
   const int n = unknowns_per_disc_;
-  const Front& front = tree_.fronts[f];
+  const Front& front = tree_->fronts[f];
   const DenseFront<Real> d = kept(f);
   local.setZero(d.stride, x.cols());
   const Eigen::Index begin = static_cast<Eigen::Index>(front.begin) * n;
@@ -286,7 +285,7 @@ void FrontFactors<Real>::solve(Columns& x) const {
     Columns own;
     while (const auto range = next()) {
       Behind& b = behind[static_cast<std::size_t>(std::ranges::lower_bound(subtrees_.ranges, range->begin, {}, &Subtrees::Range::begin) - subtrees_.ranges.begin())];
-      const Front& last = tree_.fronts[static_cast<std::size_t>(range->end) - 1];
+      const Front& last = tree_->fronts[static_cast<std::size_t>(range->end) - 1];
       b.rest = &last.rest, b.end = last.end;
       b.values.setZero(static_cast<Eigen::Index>(last.rest.size()) * n, x.cols());
       for (int f = range->begin; f < range->end; ++f) at_front(static_cast<std::size_t>(f), x, own, &b, true);

@@ -9,6 +9,7 @@
 // definite, and the caller's refinement takes out what small pivots leave.
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "dem/kernel/aligned.h"
@@ -29,14 +30,12 @@ class FrontFactors {
  public:
   /// `regularisation` is added to the diagonal of the displacements. The tree is the system's. Throws std::runtime_error
   /// where a pivot vanishes.
-  FrontFactors(const BondSystem& system, EliminationTree tree, double regularisation);
+  FrontFactors(const BondSystem& system, std::shared_ptr<const EliminationTree> tree, double regularisation);
 
   using Columns = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
   /// A^-1 of each column.
   void solve(Columns& columns) const;
-
-  const EliminationTree& tree() const { return tree_; }
 
  private:
   friend class FrontAssembly<Real>;
@@ -49,7 +48,7 @@ class FrontFactors {
   /// With the columns that are kept.
   DenseFront<Real> kept(std::size_t front) const;
 
-  EliminationTree tree_;
+  std::shared_ptr<const EliminationTree> tree_;
   int unknowns_per_disc_;
   bool symmetric_;
   FrontKernels<Real> kernels_;

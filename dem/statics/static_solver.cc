@@ -1,7 +1,7 @@
 #include "dem/statics/static_solver.h"
 
+#include <optional>
 #include <stdexcept>
-#include <variant>
 
 #include "dem/statics/bond_system.h"
 #include "dem/statics/front_factors.h"
@@ -10,9 +10,8 @@ namespace ddem {
 namespace {
 
 constexpr double kRegularisation = 1e-11;
-// Of more discs the factors are single, which takes half of the memory and time: refinement takes a few rounds more. With a
-// regularisation above the round-off of float their pivots stay positive.
-constexpr std::size_t kManyDiscs = 20000;
+// Factors of many discs are single, which takes half of the memory and time: refinement takes a few rounds more. The regularisation is
+// above the round-off of float, so that pivots stay positive. Where they do not, or refinement does not end, double ones are made.
 constexpr double kSingleRegularisation = 1e-6;
 constexpr double kResidual = 1e-12;
 constexpr int kRefinements = 20;
@@ -25,37 +24,39 @@ struct Balance {
 /// Of the precision that does.
 class Factors {
  public:
-  Factors(const BondSystem& system, EliminationTree tree) : factors_(made(system, std::move(tree))) {}
+  Factors(const BondSystem& system, EliminationTree tree) : tree_(std::make_shared<const EliminationTree>(std::move(tree))) {
+    if (system.place.size() > static_cast<std::size_t>(kManyDiscs)) {
+      try {
+        single_.emplace(system, tree_, kSingleRegularisation);
+        return;
+      } catch (const std::runtime_error&) {  // a pivot that round-off took away
+      }
+    }
+    double_.emplace(system, tree_, kRegularisation);
+  }
 
   /// A^-1 of each column, about.
   void solve(Eigen::MatrixXd& columns) const {
-    const auto* single = std::get_if<FrontFactors<float>>(&factors_);
-    if (single == nullptr) return std::get<FrontFactors<double>>(factors_).solve(columns);
+    if (double_) return double_->solve(columns);
     // Residuals become small: in units of their largest nothing leaves the range of float.
     const Eigen::ArrayXXd unit = columns.cwiseAbs().colwise().maxCoeff();
     Eigen::MatrixXf rounded = (columns.array() / unit.replicate(columns.rows(), 1)).cast<float>();
-    single->solve(rounded);
+    single_->solve(rounded);
     columns = rounded.cast<double>().array() * unit.replicate(columns.rows(), 1);
   }
 
   /// Whether there is a better precision, which is then taken.
   bool improve(const BondSystem& system) {
-    const auto* single = std::get_if<FrontFactors<float>>(&factors_);
-    if (single == nullptr) return false;
-    EliminationTree tree = single->tree();
-    factors_.emplace<FrontFactors<double>>(system, std::move(tree), kRegularisation);  // what is there goes before: both are large
+    if (double_) return false;
+    single_.reset();  // both are large
+    double_.emplace(system, tree_, kRegularisation);
     return true;
   }
 
  private:
-  using Either = std::variant<FrontFactors<double>, FrontFactors<float>>;
-
-  static Either made(const BondSystem& system, EliminationTree tree) {
-    if (system.place.size() <= kManyDiscs) return FrontFactors<double>(system, std::move(tree), kRegularisation);
-    return FrontFactors<float>(system, std::move(tree), kSingleRegularisation);
-  }
-
-  Either factors_;
+  std::shared_ptr<const EliminationTree> tree_;
+  std::optional<FrontFactors<float>> single_;
+  std::optional<FrontFactors<double>> double_;
 };
 
 }  // namespace
@@ -79,21 +80,24 @@ struct StaticSolver::Impl {
         factors(std::make_unique<Factors>(system, std::move(tree))) {}
 
   /// x and F with F = K (overlaps + r x) and l^T F + D x = loads.
-  Balance balanced(Eigen::MatrixXd overlaps, const Eigen::MatrixXd& loads) const {
-    Balance b{Eigen::MatrixXd::Zero(system.size(), overlaps.cols()), std::move(overlaps)};
-    b.forces.array().colwise() *= system.stiffness.array();
+  Balance balanced(const Eigen::MatrixXd& overlaps, const Eigen::MatrixXd& loads) const {
+    do {  // with other factors from the beginning: nothing is left of what did not converge
+      if (std::optional<Balance> b = refined(overlaps, loads)) return *std::move(b);
+    } while (factors->improve(system));
+    throw std::runtime_error("the static solve did not converge: the assembly has a mechanism that the load drives");
+  }
+
+  /// The same, or nothing where refinement does not end.
+  std::optional<Balance> refined(const Eigen::MatrixXd& overlaps, const Eigen::MatrixXd& loads) const {
+    Balance b{Eigen::MatrixXd::Zero(system.size(), overlaps.cols()), system.stiffness.asDiagonal() * overlaps};
     Eigen::MatrixXd load = loads, change;
     for (Eigen::Index c = 0; c < load.cols(); ++c) load.col(c) -= system.loads(b.forces.col(c));
-    for (int rounds = 0;; ++rounds) {
+    for (int k = 0; k <= kRefinements; ++k) {
       std::vector<Eigen::Index> columns;
       for (Eigen::Index c = 0; c < load.cols(); ++c) {
         if (!(load.col(c).norm() <= kResidual * b.forces.col(c).norm())) columns.push_back(c);
       }
       if (columns.empty()) return b;
-      if (rounds > kRefinements) {
-        if (!factors->improve(system)) throw std::runtime_error("the static solve did not converge: the assembly has a mechanism that the load drives");
-        rounds = 0;
-      }
       change = load(Eigen::all, columns);
       factors->solve(change);
       for (std::size_t n = 0; n < columns.size(); ++n) {
@@ -103,6 +107,7 @@ struct StaticSolver::Impl {
         load.col(c) = loads.col(c) - system.balance(b.forces.col(c), b.x.col(c));
       }
     }
+    return std::nullopt;
   }
 
   std::vector<StaticState> states(const Balance& b) const {
@@ -119,9 +124,8 @@ struct StaticSolver::Impl {
     return states;
   }
 
-  std::vector<StaticState> under(Eigen::MatrixXd affine) const {
-    const Eigen::Index loads = affine.cols();
-    return states(balanced(std::move(affine), Eigen::MatrixXd::Zero(system.size(), loads)));
+  std::vector<StaticState> under(const Eigen::MatrixXd& affine) const {
+    return states(balanced(affine, Eigen::MatrixXd::Zero(system.size(), affine.cols())));
   }
 };
 
@@ -145,7 +149,7 @@ StaticState StaticSolver::solve(const MacroStrain& strain) const { return solve(
 std::vector<StaticState> StaticSolver::solve(std::span<const MacroStrain> strains) const {
   Eigen::MatrixXd affine(impl_->op.stiffness.size(), static_cast<Eigen::Index>(strains.size()));
   for (Eigen::Index k = 0; k < affine.cols(); ++k) affine.col(k) = affine_overlaps(impl_->assembly, impl_->op, strains[k]);
-  return impl_->under(std::move(affine));
+  return impl_->under(affine);
 }
 
 StaticState StaticSolver::solve_moved(const Eigen::VectorXd& displacement) const {

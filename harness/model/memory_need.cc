@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "dem/statics/elimination_tree.h"
 #include "harness/io/errors.h"
 #include "harness/io/memory.h"
 #include "harness/scene/place.h"
@@ -18,7 +19,7 @@ namespace {
 // the vectors of the iterations that find its critical step, and of implicit strains their spectrum.
 constexpr double kPacking = 500.0, kRigid = 1500.0, kLagged = 2000.0, kImplicit = 7000.0, kLaggedLimits = 10500.0, kFactors = 430.0, kSoftFactors = 2000.0, kVariantFactors = 3000.0;
 // Of many discs, whose factors are single.
-constexpr double kManyDiscs = 20000.0, kManyFactors = 270.0, kManySoftFactors = 1400.0;
+constexpr double kManyFactors = 270.0, kManySoftFactors = 1400.0;
 
 double bytes_a_disc(const Scene& scene, double discs, DiscWork work) {
   switch (work) {

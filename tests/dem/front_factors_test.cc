@@ -138,12 +138,12 @@ TEST(FrontFactors, SolveTheDenseSystem) {
     }
     const Eigen::MatrixXd b = random_columns(p.system.size(), 3);
     Eigen::MatrixXd x = b;
-    FrontFactors<double>(p.system, p.tree, regularisation).solve(x);
+    FrontFactors<double>(p.system, std::make_shared<const EliminationTree>(p.tree), regularisation).solve(x);
     const double size = static_cast<double>(p.system.size());
     EXPECT_LT((dense * x - b).cwiseAbs().maxCoeff(), size * kRoundOff * dense.cwiseAbs().maxCoeff() * x.cwiseAbs().maxCoeff());
 
     Eigen::MatrixXd alone = b.col(1);
-    FrontFactors<double>(p.system, p.tree, regularisation).solve(alone);
+    FrontFactors<double>(p.system, std::make_shared<const EliminationTree>(p.tree), regularisation).solve(alone);
     EXPECT_EQ(alone.col(0), x.col(1)) << "a column depends on those beside it";
   }
 }
@@ -151,7 +151,7 @@ TEST(FrontFactors, SolveTheDenseSystem) {
 TEST(FrontFactors, AVanishingPivotIsAnError) {
   Problem p(random_piece(), kLaws[0]);
   p.system.stiffness.setZero();
-  EXPECT_THROW(FrontFactors<double>(p.system, p.tree, 0.0), std::runtime_error);
+  EXPECT_THROW(FrontFactors<double>(p.system, std::make_shared<const EliminationTree>(p.tree), 0.0), std::runtime_error);
 }
 
 /// Each bond joins discs of one front, or of a front and its rest; what a front has left over has room in the front that takes it.
