@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -20,23 +19,20 @@ constexpr std::size_t kFirstSize = 1000;
 constexpr double kLongest = 120.0;  // s
 constexpr int kRunSteps = 300;
 
-enum class Kind { pack, moduli, stability, run };
-
 struct Task {
-  std::string name;
-  Kind kind;
+  std::string name, command;
   std::string_view scheme;  ///< of deformable discs; empty: rigid
   Arrangement arrangement;
 };
 
 std::vector<Task> all_tasks() {
-  std::vector<Task> tasks{{"pack", Kind::pack, "", Arrangement::random}};  // first: it leaves the packing for the others
+  std::vector<Task> tasks{{"pack", "pack", "", Arrangement::random}};  // first: it leaves the packing for the others
   for (const Arrangement a : {Arrangement::lattice, Arrangement::random}) {
-    tasks.push_back({"moduli", Kind::moduli, "", a});
-    tasks.push_back({"stability", Kind::stability, "lagged", a});
-    tasks.push_back({"run DEM", Kind::run, "", a});
-    tasks.push_back({"run lagged", Kind::run, "lagged", a});
-    tasks.push_back({"run implicit", Kind::run, "implicit", a});
+    tasks.push_back({"moduli", "moduli", "", a});
+    tasks.push_back({"stability", "stability", "lagged", a});
+    tasks.push_back({"run DEM", "run", "", a});
+    tasks.push_back({"run lagged", "run", "lagged", a});
+    tasks.push_back({"run implicit", "run", "implicit", a});
   }
   return tasks;
 }
@@ -54,13 +50,13 @@ std::string assembly_table(Arrangement arrangement, std::size_t discs, bool peri
 }
 
 std::string scene_of(const Task& task, std::size_t discs) {
-  std::string text = assembly_table(task.arrangement, discs, task.kind == Kind::moduli);
+  std::string text = assembly_table(task.arrangement, discs, task.command == "moduli");
   text += fmt::format("[material]\ndensity = {}\n[contact]\nnormal_stiffness = {}\nstiffness_ratio = {}\n", kDensity, kNormalStiffness, kShearRatio);
   if (!task.scheme.empty()) {
     text += fmt::format("[deformation]\nscheme = \"{}\"\ncorrection = \"full\"\nyoung_modulus = {}\npoisson_ratio = {}\n", task.scheme,
                         kNormalStiffness / kSoftness, kDiscPoisson);
   }
-  if (task.kind == Kind::run) {
+  if (task.command == "run") {
     text += fmt::format("[boundary]\nright = \"free\"\n[initial]\nwave = \"longitudinal\"\nshape = \"cosine\"\nwidth = {}\namplitude = 1e-9\n"
                         "[time]\nsteps = {}\n[probes]\ndiscs = [0]\n",
                         20.0 * kRadius, kRunSteps);
@@ -80,10 +76,9 @@ std::string reason_of(const SubprocessResult& result) {
 void measure(const Task& task, const std::filesystem::path& folder, ScalingPoint& point) {
   const std::string scene = folder / "scene.toml";
   write_file(scene, scene_of(task, point.discs));
-  const std::array<std::string_view, 4> commands{"pack", "moduli", "stability", "run"};
   std::vector<std::string> arguments{fmt::format("XDG_CACHE_HOME={}", (folder / "cache").string()), (program_folder() / "ddem").string(),
-                                     std::string(commands.at(static_cast<std::size_t>(task.kind))), scene};
-  if (task.kind == Kind::pack) arguments.insert(arguments.end(), {"--force", "-o", folder / "discs.csv"});
+                                     task.command, scene};
+  if (task.command == "pack") arguments.insert(arguments.end(), {"--force", "-o", folder / "discs.csv"});
   const auto start = std::chrono::steady_clock::now();
   const SubprocessResult result = run_program("env", arguments);
   point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

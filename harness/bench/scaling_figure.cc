@@ -8,6 +8,8 @@
 namespace ddem::harness::bench {
 namespace {
 
+constexpr double kMegabyte = 1e6;
+
 bool of_one_line(const ScalingPoint& a, const ScalingPoint& b) { return a.task == b.task && a.arrangement == b.arrangement; }
 
 reports::Series series_of(const ScalingPoint& p) {
@@ -20,15 +22,15 @@ reports::Series series_of(const ScalingPoint& p) {
           .dash = p.arrangement == Arrangement::lattice ? reports::Dash::dashed : reports::Dash::solid};
 }
 
-reports::Plot panel(const std::vector<ScalingPoint>& points, const char* label, const char* unit, double ScalingPoint::* value) {
-  reports::Plot plot{.x = {.label = "discs", .scale = reports::Scale::log}, .y = {.label = label, .unit = unit, .scale = reports::Scale::log}};
+reports::Plot panel(const std::vector<ScalingPoint>& points, const char* label, double unit, double ScalingPoint::* value) {
+  reports::Plot plot{.x = {.label = "discs", .scale = reports::Scale::log}, .y = {.label = label, .scale = reports::Scale::log}};
   for (const ScalingPoint& p : points) {
     if (p.status != "ok") continue;
     const reports::Series fresh = series_of(p);
     auto series = std::ranges::find(plot.series, fresh.name, &reports::Series::name);
     if (series == plot.series.end()) series = plot.series.insert(series, fresh);
     series->x.push_back(static_cast<double>(p.discs));
-    series->y.push_back(p.*value);
+    series->y.push_back(p.*value / unit);
   }
   return plot;
 }
@@ -40,7 +42,7 @@ reports::Figure scaling_figure(const std::vector<ScalingPoint>& points) {
           .title = "Time and memory against the number of discs",
           .caption = "Whole commands, from their start to their end: what a program needs by itself stands at the left, what a disc needs is the slope. "
                      "pack: jammed from nothing; above 20000 discs copies of one cell. moduli: of a periodic cell of rigid discs. stability: of a strip with lagged strains. run: 300 steps.",
-          .panels = {panel(points, "wall time", "s", &ScalingPoint::seconds), panel(points, "memory", "B", &ScalingPoint::bytes)}};
+          .panels = {panel(points, "wall time (s)", 1.0, &ScalingPoint::seconds), panel(points, "memory (MB)", kMegabyte, &ScalingPoint::bytes)}};
 }
 
 reports::Table scaling_table(const std::vector<ScalingPoint>& points) {
@@ -51,7 +53,7 @@ reports::Table scaling_table(const std::vector<ScalingPoint>& points) {
     const auto before = std::find_if(std::make_reverse_iterator(p), points.rend(), [&](const ScalingPoint& q) { return of_one_line(*p, q); });
     const auto grown = [&](double ScalingPoint::* value) { return before == points.rend() ? reports::kNone : growth(*before, *p, value).value_or(reports::kNone); };
     const bool ok = p->status == "ok";
-    t.rows.push_back({p->task, name_of(p->arrangement), p->discs, ok ? p->seconds : reports::kNone, grown(&ScalingPoint::seconds), ok ? 1e-6 * p->bytes : reports::kNone,
+    t.rows.push_back({p->task, name_of(p->arrangement), p->discs, ok ? p->seconds : reports::kNone, grown(&ScalingPoint::seconds), ok ? p->bytes / kMegabyte : reports::kNone,
                       grown(&ScalingPoint::bytes), p->status});
   }
   return t;

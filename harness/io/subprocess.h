@@ -15,7 +15,7 @@ struct SubprocessResult {
   int exit_code = 0;                            ///< of a program that ended by itself
   int signal = 0;                               ///< that ended it, or 0
   bool timed_out = false;                       ///< it was killed at its time limit
-  double peak_memory = 0.0;                     ///< bytes: most of it at once, not counting what it started
+  double peak_memory = 0.0;                     ///< bytes: most of its own at once, and no less than this process held as it was started
   std::string standard_output, standard_error;  ///< the last megabyte of each
 
   bool succeeded() const { return exit_code == 0 && signal == 0; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/io/errors.h"
+#include "tests/support/sanitized.h"
 #include "scratch.h"
 
 namespace ddem::harness {
@@ -33,6 +34,14 @@ TEST(Subprocess, CapturesBothStreamsAndTheExitCode) {
   EXPECT_FALSE(result.succeeded());
   EXPECT_EQ(result.status(), "exit code 3");
   EXPECT_TRUE(shell("true").succeeded());
+}
+
+// A shell that holds 60 MB of text, and one that holds nothing.
+TEST(Subprocess, TellsItsPeakMemory) {
+  if (ddem::test::kSanitized) GTEST_SKIP() << "this process takes more";
+  const double nothing = shell("true").peak_memory, text = shell("x=$(head -c 60000000 /dev/zero | tr '\\0' a); :").peak_memory;
+  EXPECT_GT(nothing, 1e5);
+  EXPECT_TRUE(text - nothing > 5.5e7 && text - nothing < 3e8) << text << " " << nothing;
 }
 
 TEST(Subprocess, ArgumentsAreNotInterpreted) {
