@@ -126,6 +126,14 @@ TEST(BondSystem, IsTheOperators) {
   }
 }
 
+TEST(OperatorFrame, BondByBondIsTheMatrixToTheBit) {
+  for (const Law& law : kLaws) {
+    const Problem p(random_piece(), law);
+    const Eigen::VectorXd q = random_columns(p.op.overlap.cols(), 1);
+    EXPECT_EQ(rigid_overlaps(p.assembly, p.op, q), Eigen::VectorXd(p.op.overlap * q));
+  }
+}
+
 /// Backward stable: the residual is round-off of the matrix times the solution, whatever the condition. A held strip has no
 /// motion without stiffness but rattling discs and rotations; the regularisation is that of the matrix.
 TEST(FrontFactors, SolveTheDenseSystem) {
