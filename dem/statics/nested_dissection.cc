@@ -51,11 +51,10 @@ class Dissection {
   /// The part without its discs along the cut, the other, then those.
   template <class Borders>
   void separate(std::span<int> part, std::span<int> other, const Borders& borders) {
-    const auto along_cut = std::ranges::stable_partition(part, [&](int d) { return !borders(d); });
-    const std::span<int> inner(part.begin(), along_cut.begin());
-    divide(inner);
+    const auto along_cut = std::stable_partition(part.begin(), part.end(), [&](int d) { return !borders(d); });
+    divide({part.begin(), along_cut});
     divide(other);
-    order_.insert(order_.end(), along_cut.begin(), along_cut.end());
+    order_.insert(order_.end(), along_cut, part.end());
   }
 
   const std::vector<double>& longer_side(std::span<const int> discs) const {
