@@ -58,8 +58,11 @@ class Ended : public Cli {
   }
 
   static bool soon(const std::function<bool()>& holds) {
-    for (int k = 0; k < 1000 && !holds(); ++k) ::usleep(10000);
-    return holds();
+    for (int k = 0; k < 1000; ++k) {
+      if (holds()) return true;  // asked once more, a short run may have ended
+      ::usleep(10000);
+    }
+    return false;
   }
 
   void expect_nothing_left() const {
