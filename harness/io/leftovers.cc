@@ -18,7 +18,7 @@ namespace ddem::harness {
 namespace {
 
 std::atomic_flag busy;
-Leftover* first = nullptr;
+Leftover* newest = nullptr;
 
 void lock() {
   while (busy.test_and_set(std::memory_order_acquire)) ::sched_yield();
@@ -49,12 +49,12 @@ void remove_tree(int folder, const char* name, int depth) {
 }
 
 void end_children() {
-  for (const Leftover* l = first; l != nullptr; l = l->next) {
+  for (const Leftover* l = newest; l != nullptr; l = l->next) {
     if (l->child <= 0) continue;
     ::kill(-l->child, SIGKILL);
     ::kill(l->child, SIGKILL);  // it may not have a group of its own yet
   }
-  for (const Leftover* l = first; l != nullptr; l = l->next) {
+  for (const Leftover* l = newest; l != nullptr; l = l->next) {
     while (l->child > 0 && ::waitpid(l->child, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
@@ -65,7 +65,7 @@ void end_by(int signal) {
   lock();
   wipe_drawn_progress();
   end_children();
-  for (const Leftover* l = first; l != nullptr; l = l->next) {
+  for (const Leftover* l = newest; l != nullptr; l = l->next) {
     if (!l->path.empty()) remove_tree(AT_FDCWD, l->path.c_str(), 0);
   }
   struct sigaction usual {};
@@ -108,20 +108,20 @@ CleanupSection::~CleanupSection() {
 
 void CleanupSection::list(Leftover& leftover) {
   leftover.previous = nullptr;
-  leftover.next = first;
-  if (first != nullptr) first->previous = &leftover;
-  first = &leftover;
+  leftover.next = newest;
+  if (newest != nullptr) newest->previous = &leftover;
+  newest = &leftover;
 }
 
 void CleanupSection::unlist(Leftover& leftover) {
-  if (first == &leftover) first = leftover.next;
+  if (newest == &leftover) newest = leftover.next;
   if (leftover.previous != nullptr) leftover.previous->next = leftover.next;
   if (leftover.next != nullptr) leftover.next->previous = leftover.previous;
   leftover.next = leftover.previous = nullptr;
 }
 
 void CleanupSection::forget_all() {
-  while (first != nullptr) unlist(*first);
+  while (newest != nullptr) unlist(*newest);
 }
 
 }  // namespace ddem::harness

@@ -16,7 +16,7 @@ namespace ddem::harness {
 namespace {
 
 constexpr std::size_t max_listed = 20;
-constexpr std::size_t max_bytes = std::size_t{4} << 30;
+constexpr std::size_t largest_file = std::size_t{4} << 30;
 
 std::string_view trim_cell(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
@@ -169,7 +169,7 @@ void read_rows(std::string_view text, const std::array<std::string_view, n>& nam
 template <class Parse>
 auto parse_file(const std::filesystem::path& path, Parse parse)
     -> decltype(parse(std::string_view{}, std::string{})) {
-  const Checked<std::string> text = read_text_file(path, max_bytes);
+  const Checked<std::string> text = read_text_file(path, largest_file);
   if (!text) return text.violations;
   return parse(*text, path.string());
 }
@@ -249,7 +249,7 @@ Checked<SieveTable> parse_sieve_table(std::string_view text, const std::string& 
 }
 
 int line_of_row(const std::filesystem::path& path, std::size_t row) {
-  const Checked<std::string> text = read_text_file(path, max_bytes);
+  const Checked<std::string> text = read_text_file(path, largest_file);
   if (!text) return 0;
   Lines lines(*text);
   for (std::size_t k = 0; k < row + 2; ++k) lines.next();  // the header, and the rows up to this one

@@ -25,7 +25,7 @@ HexagonalLattice lattice(double row_angle = 0.0) { return {kRadius, test::kDensi
 
 ContactParameters contact(double lambda) { return {kNormalStiffness, lambda, Kinematics::linear}; }
 
-DeformationParameters strains(Scheme scheme, Correction c, double softness = 0.25, double nu = 0.3) {
+DeformationParameters bloch_strains(Scheme scheme, Correction c, double softness = 0.25, double nu = 0.3) {
   return {scheme, c, kNormalStiffness / softness, nu, Plane::stress};
 }
 
@@ -36,9 +36,9 @@ struct Named {
 
 std::vector<Named> models(Scheme scheme) {
   return {{ContactModel::dem, {}},
-          {ContactModel::ddem_normal, strains(scheme, Correction::normal)},
-          {ContactModel::ddem_full, strains(scheme, Correction::full)},
-          {ContactModel::ddem_normal_only_stress, strains(scheme, Correction::normal_only_stress)}};
+          {ContactModel::ddem_normal, bloch_strains(scheme, Correction::normal)},
+          {ContactModel::ddem_full, bloch_strains(scheme, Correction::full)},
+          {ContactModel::ddem_normal_only_stress, bloch_strains(scheme, Correction::normal_only_stress)}};
 }
 
 references::PlaneModuli closed_form(const Named& m, double lambda) {
@@ -84,7 +84,7 @@ TEST(BlochFrequencies, DispersionAlongTheRows) {
 
 TEST(BlochBranches, KnowTheirPolarisation) {
   // Along a row, mirror symmetry splits longitudinal waves from shear and rotation.
-  const HexagonalBloch bloch(lattice(), contact(0.5), strains(Scheme::implicit, Correction::full));
+  const HexagonalBloch bloch(lattice(), contact(0.5), bloch_strains(Scheme::implicit, Correction::full));
   const WaveVector k{0.3 / kRadius, 0.0};
   const auto branches = bloch.branches(k);
   const auto frequencies = bloch.frequencies(k);
@@ -150,7 +150,7 @@ TEST(BlochMultipliers, FirstOrderFormulaOfTheLag) {
   const double lambda = 0.5, softness = 0.25, nu = 0.3;
   const double b = 3.0 / std::numbers::pi * (1.0 + nu) * softness * (1.0 + lambda);
   for (const auto& [s, w] : {std::pair{1, 1.0}, {2, 1.0}, {3, 1.0}, {1, 0.5}, {2, 0.5}, {4, 0.7}}) {
-    DeformationParameters d = strains(Scheme::lagged, Correction::full, softness, nu);
+    DeformationParameters d = bloch_strains(Scheme::lagged, Correction::full, softness, nu);
     d.evaluations = s;
     d.relaxation = w;
     const HexagonalBloch bloch(lattice(), contact(lambda), d);
@@ -172,7 +172,7 @@ TEST(BlochMultipliers, LaggedSchemeIsStableBelowTheFixedPointLimit) {
       const double limit = references::hexagonal_fixed_point_limit(m.model, 0.3, lambda);
       const double critical = HexagonalBloch(lattice(), contact(lambda), {}).largest_stable_step().value();
       const auto growth = [&](double softness) {
-        const HexagonalBloch bloch(lattice(), contact(lambda), strains(Scheme::lagged, m.deformation.correction, softness));
+        const HexagonalBloch bloch(lattice(), contact(lambda), bloch_strains(Scheme::lagged, m.deformation.correction, softness));
         return bloch.worst_wave(0.02 * critical).growth;
       };
       EXPECT_LT(growth(0.97 * limit), 1e-9);
@@ -186,7 +186,7 @@ TEST(BlochMultipliers, PublishedCorrectionIsUnstableAboveOneThird) {
     for (const double softness : {0.05, 0.25}) {
       const auto growth = [&](double lambda) {
         const double critical = HexagonalBloch(lattice(), contact(lambda), {}).largest_stable_step().value();
-        return HexagonalBloch(lattice(), contact(lambda), strains(Scheme::lagged, Correction::normal, softness))
+        return HexagonalBloch(lattice(), contact(lambda), bloch_strains(Scheme::lagged, Correction::normal, softness))
             .worst_wave(fraction * critical)
             .growth;
       };

@@ -16,13 +16,13 @@ namespace {
 constexpr double kStiffness = 1e10;
 constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
 
-struct Law {
+struct StrainLaw {
   Scheme scheme;
   Correction correction;
   double stiffness_ratio;
 };
 
-const Law kLaws[] = {{Scheme::none, Correction::normal, 0.0},           {Scheme::none, Correction::normal, 0.4},
+const StrainLaw kLaws[] = {{Scheme::none, Correction::normal, 0.0},           {Scheme::none, Correction::normal, 0.4},
                      {Scheme::implicit, Correction::full, 0.0},         {Scheme::implicit, Correction::full, 0.4},
                      {Scheme::implicit, Correction::normal, 0.4},       {Scheme::implicit, Correction::normal_only_stress, 0.4}};
 
@@ -48,7 +48,7 @@ struct Problem {
   EliminationTree tree;
   BondSystem system;
 
-  Problem(Assembly a, const Law& law) : assembly(std::move(a)) {
+  Problem(Assembly a, const StrainLaw& law) : assembly(std::move(a)) {
     DeformationParameters d;
     d.scheme = law.scheme;
     d.correction = law.correction;
@@ -118,7 +118,7 @@ Eigen::MatrixXd random_columns(Eigen::Index rows, Eigen::Index columns) {
 constexpr double kOfSums = 100.0 * kRoundOff;
 
 TEST(BondSystem, IsTheOperators) {
-  for (const Law& law : kLaws) {
+  for (const StrainLaw& law : kLaws) {
     const Problem p(random_piece(), law);
     const Eigen::MatrixXd dense = p.dense(), x = random_columns(p.system.size(), 1);
     const Eigen::VectorXd product = p.system.balance(p.system.stiffness.cwiseProduct(p.system.overlaps(x)), x);
@@ -127,7 +127,7 @@ TEST(BondSystem, IsTheOperators) {
 }
 
 TEST(OperatorFrame, BondByBondIsTheMatrixToTheBit) {
-  for (const Law& law : kLaws) {
+  for (const StrainLaw& law : kLaws) {
     const Problem p(random_piece(), law);
     const Eigen::VectorXd q = random_columns(p.op.overlap.cols(), 1);
     EXPECT_EQ(rigid_overlaps(p.assembly, p.op, q), Eigen::VectorXd(p.op.overlap * q));
@@ -138,7 +138,7 @@ TEST(OperatorFrame, BondByBondIsTheMatrixToTheBit) {
 /// motion without stiffness but rattling discs and rotations; the regularisation is that of the matrix.
 TEST(FrontFactors, SolveTheDenseSystem) {
   constexpr double regularisation = 1e-3;
-  for (const Law& law : kLaws) {
+  for (const StrainLaw& law : kLaws) {
     const Problem p(random_piece(), law);
     Eigen::MatrixXd dense = p.dense();
     for (const int d : p.rows_of_displacements()) {

@@ -32,7 +32,7 @@ struct Case {
   Kinematics kinematics = Kinematics::linear;
 };
 
-DeformationParameters strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial,
+DeformationParameters front_strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial,
                               int evaluations = 1) {
   DeformationParameters d{scheme, Correction::full, 4.0 * kNormalStiffness, 0.3, Plane::stress};
   d.solver = solver;
@@ -48,15 +48,15 @@ const Case cases[] = {
     {"Inside", Source::inside, 0.25},
     {"Nothing", Source::nothing, 0.25},
     {"Nonlinear", Source::column, 0.25, {}, Kinematics::nonlinear},
-    {"Lagged", Source::column, 0.25, strains(Scheme::lagged)},
-    {"LaggedWithoutShear", Source::column, 0.0, strains(Scheme::lagged)},
-    {"LaggedWithoutShearDriven", Source::drive, 0.0, strains(Scheme::lagged)},
-    {"LaggedThrice", Source::drive, 0.25, strains(Scheme::lagged, StrainSolver::polynomial, 3)},
-    {"Implicit", Source::column, 0.25, strains(Scheme::implicit)},
-    {"ImplicitWithoutShear", Source::column, 0.0, strains(Scheme::implicit)},
-    {"ImplicitWithoutShearDriven", Source::drive, 0.0, strains(Scheme::implicit)},
-    {"ImplicitDriven", Source::drive, 0.25, strains(Scheme::implicit)},
-    {"Gradients", Source::column, 0.25, strains(Scheme::implicit, StrainSolver::conjugate_gradients)}};
+    {"Lagged", Source::column, 0.25, front_strains(Scheme::lagged)},
+    {"LaggedWithoutShear", Source::column, 0.0, front_strains(Scheme::lagged)},
+    {"LaggedWithoutShearDriven", Source::drive, 0.0, front_strains(Scheme::lagged)},
+    {"LaggedThrice", Source::drive, 0.25, front_strains(Scheme::lagged, StrainSolver::polynomial, 3)},
+    {"Implicit", Source::column, 0.25, front_strains(Scheme::implicit)},
+    {"ImplicitWithoutShear", Source::column, 0.0, front_strains(Scheme::implicit)},
+    {"ImplicitWithoutShearDriven", Source::drive, 0.0, front_strains(Scheme::implicit)},
+    {"ImplicitDriven", Source::drive, 0.25, front_strains(Scheme::implicit)},
+    {"Gradients", Source::column, 0.25, front_strains(Scheme::implicit, StrainSolver::conjugate_gradients)}};
 
 class Front : public testing::TestWithParam<Case> {
  protected:
@@ -216,7 +216,7 @@ TEST_P(Front, SeveralStepsASweepWhileItIsUnderWay) {
 TEST(Sweeps, RoundAPeriod) {
   const Assembly a = test::hexagonal_assembly({.columns = 40, .rows = 8, .radius = 1e-4, .periodic_x = true, .periodic_y = true});
   for (const auto& [stiffness_ratio, deformation] :
-       {std::pair(0.25, DeformationParameters{}), std::pair(0.0, strains(Scheme::lagged)), std::pair(0.25, strains(Scheme::implicit))}) {
+       {std::pair(0.25, DeformationParameters{}), std::pair(0.0, front_strains(Scheme::lagged)), std::pair(0.25, front_strains(Scheme::implicit))}) {
     SimulationInput in;
     in.contact = {kNormalStiffness, stiffness_ratio, Kinematics::linear};
     in.deformation = deformation;

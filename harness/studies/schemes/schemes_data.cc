@@ -142,14 +142,14 @@ std::vector<ReachCurve> reach_curves(StripCampaign s, double poisson_ratio, cons
 }
 
 OrderCurve order_of(const StripCampaign& s, const StudiedScheme& scheme, const Solver& solver) {
-  constexpr int kColumns = 16;
+  constexpr int columns = 16;
   const double radius = s.length / static_cast<double>(2 * s.columns + 1);
-  const Packing p = packings::hexagonal({.columns = kColumns, .rows = 4, .radius = radius, .periodic_x = true, .periodic_y = true});
+  const Packing p = packings::hexagonal({.columns = columns, .rows = 4, .radius = radius, .periodic_x = true, .periodic_y = true});
   const ddem::Assembly a = make_assembly(p, bonds_within_gap(p, 0.1 * radius), 1.0, s.density);
   SimulationInput in;
   in.contact.normal_stiffness = s.normal_stiffness;
   in.deformation = scheme.deformation;
-  const double k = std::numbers::pi / (kColumns * radius);  // one wave over the lattice
+  const double k = std::numbers::pi / (columns * radius);  // one wave over the lattice
   for (const double x : a.packing.x) in.initial.uy.push_back(kSchemeAmplitude * std::cos(k * (x - a.packing.x.front())));
   in.receivers = {{{0}}};
   // Shear along the rows is the slowest branch; the exact wave has converged strains.
