@@ -130,7 +130,7 @@ void add_bench_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Run time against error, and cost per bond and step");
   command->footer("kernels         every contact law and scheme, 682 to 1e6 discs, in a lattice and at random, and the finite elements; one and two threads\n"
                   "work-precision  finite elements by degree and mesh, discs by scheme, step and size, against closed forms\n"
-                  "scaling         time and memory of whole commands (pack, moduli, stability, run) from 1e3 discs to --largest; 1e6 take some ten minutes\n"
+                  "scaling         time and memory of whole commands (pack, moduli, stability, run) from 1e3 discs to --largest\n"
                   "peers           LAMMPS (lmp on the PATH) and Yade (yade) on the same discs, where they are installed (Debian: lammps, yade)\n"
                   "Without --only: all of it, in some five minutes, and a quarter of an hour more with LAMMPS. Times are those of a machine that does nothing else.");
   command->add_option("--only", o->only, "one part of it")->check(CLI::IsMember({"kernels", "work-precision", "scaling", "peers"}));

@@ -96,7 +96,7 @@ constexpr KeySpec keys[] = {
            "random: packed in a periodic cell, whose bonds across free edges are cut, or between flat walls at all "
            "edges that are not periodic")),
     into<&RandomPacking::cell>(choice("assembly", "cell", "copies | whole", "\"copies\"",
-           "random, of more than 20000 discs: copies of one periodic cell of 1000 to 4000 discs, or all jammed as a whole, which takes minutes, of 1e5 some ten")),
+           "random, of more than 20000 discs: copies of one periodic cell of 1000 to 4000 discs, or all jammed as a whole, which takes minutes")),
     into<&HexagonalPacking::close_packed_along>(choice("assembly", "close_packed_along", "x | y", "\"x\"",
            "hexagonal: direction of the rows of touching discs")),
     into<&HexagonalLattice::columns>(integer("assembly", "columns", from(1, max_discs), no_default,
