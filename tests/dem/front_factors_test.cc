@@ -22,9 +22,9 @@ struct StrainLaw {
   double stiffness_ratio;
 };
 
-const StrainLaw kLaws[] = {{Scheme::none, Correction::normal, 0.0},           {Scheme::none, Correction::normal, 0.4},
-                     {Scheme::implicit, Correction::full, 0.0},         {Scheme::implicit, Correction::full, 0.4},
-                     {Scheme::implicit, Correction::normal, 0.4},       {Scheme::implicit, Correction::normal_only_stress, 0.4}};
+const StrainLaw kLaws[] = {{Scheme::none, Correction::normal, 0.0},     {Scheme::none, Correction::normal, 0.4},
+                           {Scheme::implicit, Correction::full, 0.0},   {Scheme::implicit, Correction::full, 0.4},
+                           {Scheme::implicit, Correction::normal, 0.4}, {Scheme::implicit, Correction::normal_only_stress, 0.4}};
 
 /// The left end of a random packing, periodic in y: some hundred discs.
 Assembly random_piece() {

@@ -32,8 +32,7 @@ struct Case {
   Kinematics kinematics = Kinematics::linear;
 };
 
-DeformationParameters front_strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial,
-                              int evaluations = 1) {
+DeformationParameters front_strains(Scheme scheme, StrainSolver solver = StrainSolver::polynomial, int evaluations = 1) {
   DeformationParameters d{scheme, Correction::full, 4.0 * kNormalStiffness, 0.3, Plane::stress};
   d.solver = solver;
   d.evaluations = evaluations;

@@ -27,7 +27,8 @@ TEST(SignalsCsv, HeaderAndShortestNumbers) {
 
 TEST(SignalsCsv, NothingIsWrittenOfWhatIsWrong) {
   const Scratch scratch;
-  const double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
   const auto write = [&](const SignalTable& table) { write_signals_csv(scratch / "s.csv", table); };
   EXPECT_THROW(write({{0.0, 1.0}, {"ux"}, {{1.0, not_a_number}}}), std::invalid_argument);
   EXPECT_THROW(write({{0.0, infinite}, {"ux"}, {{1.0, 1.0}}}), std::invalid_argument);
