@@ -24,6 +24,11 @@ endif()
 if(DDEM_UNITY)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
+  # g++ takes up to 2 GB for such a source: as many at a time as there is memory for.
+  cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)  # MiB
+  math(EXPR at_a_time "(${memory} + 1999) / 2000")
+  set_property(GLOBAL APPEND PROPERTY JOB_POOLS compile=${at_a_time})
+  set(CMAKE_JOB_POOL_COMPILE compile)
   # A source of several is not the main one, of which alone g++ lets a type have members of unnamed namespaces.
   set(DDEM_UNITY_FLAGS $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
