@@ -29,6 +29,13 @@ SymmetricPairs symmetric_pairs(const Eigen::MatrixXd& a, const char* what) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+SymmetricPairs tridiagonal_pairs(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside, const char* what) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, beside);
+  converged(solver, what);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a, const char* what) {
   return converged(Eigen::EigenSolver<Eigen::MatrixXd>(a, false), what).eigenvalues();
 }

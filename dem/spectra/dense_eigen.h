@@ -23,6 +23,8 @@ struct SymmetricPairs {
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a, const char* what);
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXcd& a, const char* what);
 SymmetricPairs symmetric_pairs(const Eigen::MatrixXd& a, const char* what);
+/// Of the symmetric tridiagonal matrix with `diagonal` and, one shorter, what stands `beside` it.
+SymmetricPairs tridiagonal_pairs(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside, const char* what);
 
 /// Any square matrix.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a, const char* what);

@@ -1,7 +1,8 @@
 #include "dem/spectra/gauss_quadrature.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem {
 
@@ -25,9 +26,8 @@ Quadrature gauss_quadrature(const std::function<Eigen::VectorXd(const Eigen::Vec
     beside[m - 1] = rest;
     basis.col(m) = next / rest;
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> jacobi;
-  jacobi.computeFromTridiagonal(diagonal.head(m), beside.head(m - 1));
-  return {jacobi.eigenvalues(), jacobi.eigenvectors().row(0).cwiseAbs2().transpose()};
+  const SymmetricPairs jacobi = tridiagonal_pairs(diagonal.head(m), beside.head(m - 1), "Gauss quadrature");
+  return {jacobi.values, jacobi.vectors.row(0).cwiseAbs2().transpose()};
 }
 
 }  // namespace ddem

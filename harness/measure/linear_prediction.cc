@@ -1,9 +1,11 @@
 #include "harness/measure/linear_prediction.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem::harness {
 namespace {
@@ -40,7 +42,7 @@ Prediction of_order(const Eigen::MatrixXd& y, Eigen::Index order) {
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
   companion.topRightCorner(order - 1, order - 1).setIdentity();
   companion.row(order - 1) = c.transpose();
-  const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(companion, false).eigenvalues();
+  const Eigen::VectorXcd roots = eigenvalues(companion, "linear prediction");
   p.factors.assign(roots.begin(), roots.end());
   return p;
 }

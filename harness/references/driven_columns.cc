@@ -1,9 +1,11 @@
 #include "harness/references/driven_columns.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem::references {
 namespace {
@@ -64,11 +66,11 @@ DrivenColumns::DrivenColumns(const HexagonalColumns& l, ColumnWave wave, double 
   const Eigen::Index free = k.rows() - kDriven;
   const Eigen::VectorXd inverse = root_mass.tail(free).cwiseInverse();
   const Eigen::VectorXd force = -k.bottomLeftCorner(free, kDriven).rowwise().sum().cwiseProduct(inverse);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse.asDiagonal() * k.bottomRightCorner(free, free) * inverse.asDiagonal());
-  if (modes.info() != Eigen::Success) throw std::runtime_error("the modes of the driven columns were not found");
-  frequency_ = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  load_ = modes.eigenvectors().transpose() * force;
-  shape_ = (inverse.asDiagonal() * modes.eigenvectors()).topRows(l.columns - kDriven);
+  const SymmetricPairs modes =
+      symmetric_pairs(inverse.asDiagonal() * k.bottomRightCorner(free, free) * inverse.asDiagonal(), "driven columns");
+  frequency_ = modes.values.cwiseMax(0.0).cwiseSqrt();
+  load_ = modes.vectors.transpose() * force;
+  shape_ = (inverse.asDiagonal() * modes.vectors).topRows(l.columns - kDriven);
 }
 
 std::vector<double> DrivenColumns::signal(std::span<const double> weights, double dt, std::size_t samples) const {

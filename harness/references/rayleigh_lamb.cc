@@ -9,12 +9,14 @@
 
 #include "harness/references/rayleigh_lamb.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem::references {
 namespace {
@@ -88,11 +90,10 @@ struct GaussLegendre {
   GaussLegendre() {
     Eigen::VectorXd next(count - 1);
     for (int n = 1; n < count; ++n) next[n - 1] = n / std::sqrt(4.0 * n * n - 1.0);
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(Eigen::VectorXd::Zero(count), next);
+    const SymmetricPairs modes = tridiagonal_pairs(Eigen::VectorXd::Zero(count), next, "Gauss and Legendre's rule");
     for (int n = 0; n < count; ++n) {
-      const double share = solver.eigenvectors()(0, n);
-      points[static_cast<std::size_t>(n)] = 0.5 * (1.0 + solver.eigenvalues()[n]);
+      const double share = modes.vectors(0, n);
+      points[static_cast<std::size_t>(n)] = 0.5 * (1.0 + modes.values[n]);
       weights[static_cast<std::size_t>(n)] = share * share;
     }
   }
