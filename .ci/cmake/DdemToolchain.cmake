@@ -24,13 +24,14 @@ endif()
 if(DDEM_UNITY)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
-  # g++ takes up to 2 GB for such a source: as many at a time as there is memory for.
+  # g++ takes up to 2.5 GB for such a source: as many at a time as there is memory for.
   cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)  # MiB
-  math(EXPR at_a_time "(${memory} + 1999) / 2000")
+  math(EXPR at_a_time "(${memory} + 2499) / 2500")
   set_property(GLOBAL APPEND PROPERTY JOB_POOLS compile=${at_a_time})
   set(CMAKE_JOB_POOL_COMPILE compile)
   # A source of several is not the main one, of which alone g++ lets a type have members of unnamed namespaces.
-  set(DDEM_UNITY_FLAGS $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # It begins to look for memory to free at 128 MB, which costs it a tenth of its time.
+  set(DDEM_UNITY_FLAGS $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;--param=ggc-min-heapsize=1000000>)
 endif()
 
 add_library(ddem_flags INTERFACE)
@@ -66,6 +67,11 @@ macro(ddem_sanitize_loops)
   if(DDEM_SANITIZE)
     add_compile_options(-O2 -fno-sanitize=null,alignment,object-size,pointer-overflow)
   endif()
+endmacro()
+
+# For folders without hot loops: a third less time to compile, half of it under the sanitizers.
+macro(ddem_no_hot_loops)
+  add_compile_options($<IF:$<BOOL:${DDEM_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
 endmacro()
 
 # Reading headers takes more than half of the time that most files take to compile. What follows in a folder and below reads
