@@ -322,39 +322,44 @@ const withoutScripts = async (browser) => {
   await page.context().close();
 };
 
+const onScreen = async (browser) => {
+  const page = await (await browser.newContext({ viewport: { width: 1280, height: 900 }, colorScheme: 'light' })).newPage();
+  watch(page, '1280 px');
+  await page.goto(`file://${report}`);
+  await checkFilters(page);
+  const ids = await drawAll(page, '1280 px');
+  await checkWidth(page, '1280 px');
+  await checkZoomAndLegend(page);
+  await checkLogAxis(page);
+  await checkSlider(page);
+  await checkCsv(page, ids);
+  await page.evaluate(() => window.scrollTo(0, 0));
+  await page.screenshot({ path: path.join(output, 'report.png'), fullPage: true });
+  await checkPaper(page, ids);
+  await checkLinks(page);
+  await checkTables(page);
+  await checkAccessibility(page, '1280 px');
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await checkAccessibility(page, '1280 px, dark');
+  await page.screenshot({ path: path.join(output, 'report-dark.png') });
+};
+
+const onPhone = async (browser) => {
+  const phone = await (await browser.newContext({ viewport: { width: 390, height: 800 }, isMobile: true, hasTouch: true })).newPage();
+  watch(phone, '390 px');
+  await phone.goto(`file://${report}`);
+  await drawAll(phone, '390 px');
+  await checkWidth(phone, '390 px');
+  await checkAccessibility(phone, '390 px');
+  await phone.screenshot({ path: path.join(output, 'report-phone.png'), fullPage: true });
+};
+
 (async () => {
   check(fs.statSync(report).size < 4e6, `the report has ${fs.statSync(report).size} bytes`);
   const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-gpu'] });
   try {
     await checkOpening(browser);
-    const page = await (await browser.newContext({ viewport: { width: 1280, height: 900 }, colorScheme: 'light' })).newPage();
-    watch(page, '1280 px');
-    await page.goto(`file://${report}`);
-    await checkFilters(page);
-    const ids = await drawAll(page, '1280 px');
-    await checkWidth(page, '1280 px');
-    await checkZoomAndLegend(page);
-    await checkLogAxis(page);
-    await checkSlider(page);
-    await checkCsv(page, ids);
-    await page.evaluate(() => window.scrollTo(0, 0));
-    await page.screenshot({ path: path.join(output, 'report.png'), fullPage: true });
-    await checkPaper(page, ids);
-    await checkLinks(page);
-    await checkTables(page);
-    await checkAccessibility(page, '1280 px');
-    await page.emulateMedia({ colorScheme: 'dark' });
-    await checkAccessibility(page, '1280 px, dark');
-    await page.screenshot({ path: path.join(output, 'report-dark.png') });
-
-    const phone = await (await browser.newContext({ viewport: { width: 390, height: 800 }, isMobile: true, hasTouch: true })).newPage();
-    watch(phone, '390 px');
-    await phone.goto(`file://${report}`);
-    await drawAll(phone, '390 px');
-    await checkWidth(phone, '390 px');
-    await checkAccessibility(phone, '390 px');
-    await phone.screenshot({ path: path.join(output, 'report-phone.png'), fullPage: true });
-    await withoutScripts(browser);
+    await Promise.all([onScreen(browser), onPhone(browser), withoutScripts(browser)]);
   } finally {
     await browser.close();
   }
