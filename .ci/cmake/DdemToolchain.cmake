@@ -61,7 +61,7 @@ macro(ddem_watch_ways)
   endif()
 endmacro()
 
-# For folders of loops over discs: what AddressSanitizer sees as well, wrong addresses, is left to it. Twice as fast, and files
+# For loops over discs and elements: what AddressSanitizer sees as well, wrong addresses, is left to it. Twice as fast, and files
 # that took three minutes to compile take one.
 set(DDEM_SANITIZED_LOOPS -O2 -fno-sanitize=null,alignment,object-size,pointer-overflow)
 macro(ddem_sanitize_loops)

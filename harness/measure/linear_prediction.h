@@ -21,7 +21,7 @@ struct Prediction {
 /// Of the samples [begin, end) of all signals, which must be finite and that long. Each sample counts alike, whatever has
 /// grown or decayed since. Takes the lowest of the orders 1, 2, 3, 4, 6 and 8 whose residual is below `enough`, or else
 /// the order of the smallest residual. Needs order + 1 samples. Throws std::invalid_argument on signals that are shorter
-/// than `end` or not finite.
+/// than `end` or not finite; std::runtime_error where the roots are not found.
 Prediction predict_linearly(std::span<const std::vector<double>> signals, std::size_t begin, std::size_t end, double enough);
 
 }  // namespace ddem::harness
