@@ -4,14 +4,21 @@
 namespace ddem::DDEM_ISA {
 namespace {
 
-template <class Kinematics, class Bond, bool kRotation>
+/// Without rotation there are forces along the normals alone, to which every correction is the same.
+template <class Kinematics, class Bond>
+StepKernels choose_central_strain(const StepFeatures& f) {
+  if (f.strain == StrainCoupling::none) return StepKernel<Kinematics, Bond, false, StrainCoupling::none>::kernels(f);
+  return StepKernel<Kinematics, Bond, false, StrainCoupling::normal>::kernels(f);
+}
+
+template <class Kinematics, class Bond>
 StepKernels choose_strain(const StepFeatures& f) {
   switch (f.strain) {
-    case StrainCoupling::none: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::none>::kernels(f);
-    case StrainCoupling::normal: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal>::kernels(f);
-    case StrainCoupling::full: return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::full>::kernels(f);
+    case StrainCoupling::none: return StepKernel<Kinematics, Bond, true, StrainCoupling::none>::kernels(f);
+    case StrainCoupling::normal: return StepKernel<Kinematics, Bond, true, StrainCoupling::normal>::kernels(f);
+    case StrainCoupling::full: return StepKernel<Kinematics, Bond, true, StrainCoupling::full>::kernels(f);
     case StrainCoupling::normal_only_stress:
-      return StepKernel<Kinematics, Bond, kRotation, StrainCoupling::normal_only_stress>::kernels(f);
+      return StepKernel<Kinematics, Bond, true, StrainCoupling::normal_only_stress>::kernels(f);
   }
   return {};
 }
@@ -21,7 +28,7 @@ StepKernels choose_rotation(const StepFeatures& f) {
   if constexpr (Kinematics::kLinear) {
     if (f.pulls) return StepKernel<Kinematics, Bond, false, StrainCoupling::normal, true>::kernels(f);
   }
-  return f.rotation ? choose_strain<Kinematics, Bond, true>(f) : choose_strain<Kinematics, Bond, false>(f);
+  return f.rotation ? choose_strain<Kinematics, Bond>(f) : choose_central_strain<Kinematics, Bond>(f);
 }
 
 template <class Kinematics>

@@ -22,6 +22,8 @@ namespace {
 
 template <class Kinematics, class Bond, bool kRotation, StrainCoupling kStrain, bool kPulls = false>
 struct StepKernel {
+  static_assert(kRotation || kStrain == StrainCoupling::none || kStrain == StrainCoupling::normal,
+                "without rotation there are forces along the normals alone");
   using State = typename Bond::State;
   static constexpr bool kDeformable = kStrain != StrainCoupling::none;
   /// Stress by forces along the normals: its two shear stresses are the same.
@@ -51,7 +53,7 @@ struct StepKernel {
       State b = bond_at<Bond>(d, k);
       b.u_n = both_ends(d, d.pull, k);
       return b;
-    } else if constexpr (Kinematics::kLinear && kRotation && kStrain == StrainCoupling::full) {
+    } else if constexpr (Kinematics::kLinear && kStrain == StrainCoupling::full) {
       const Vector v = approach(bond_at<Bond>(d, k), own.strain, gather(d.strain, d.neighbour + k));
       const Triple other = gather(d.motion, d.neighbour + k);
       const Vector u{(other.a - own.motion.a) - v.x, (other.b - own.motion.b) - v.y};
@@ -59,7 +61,7 @@ struct StepKernel {
     } else {
       State b = rigid(d, k, own.motion);
       const Triple other = gather(d.strain, d.neighbour + k);
-      if constexpr (kRotation && kStrain == StrainCoupling::full) {
+      if constexpr (kStrain == StrainCoupling::full) {
         const Vector v = approach(b, own.strain, other);
         b.u_n -= b.nx * v.x + b.ny * v.y;
         b.u_t -= b.nx * v.y - b.ny * v.x;
@@ -207,7 +209,7 @@ struct StepKernel {
       const State b = bond_at<Bond>(d, k);
       const Pack k_n = Bond::normal(d, k);
       const Triple other = gather(d.strain, d.neighbour + k);
-      if constexpr (kRotation && kStrain == StrainCoupling::full) {
+      if constexpr (kStrain == StrainCoupling::full) {
         // k_n n (n.v) + k_t t (t.v), where the second part is k_t (v - n (n.v)).
         const Vector v = approach(b, own, other);
         const Pack k_t = Bond::shear(d, k), g = (k_n - k_t) * (b.nx * v.x + b.ny * v.y);
