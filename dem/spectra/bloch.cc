@@ -37,16 +37,19 @@ std::array<Direction2, kBonds> bond_directions(double row_angle) {
   return n;
 }
 
+/// One product, whatever its factors are made of: each kind would be compiled by itself.
+MatrixXcd times(const MatrixXcd& a, const MatrixXcd& b) { return a * b; }
+
 MatrixXcd power(const MatrixXcd& m, int exponent) {
   MatrixXcd result = MatrixXcd::Identity(m.rows(), m.cols());
-  for (int k = 0; k < exponent; ++k) result *= m;
+  for (int k = 0; k < exponent; ++k) result = times(result, m);
   return result;
 }
 
 /// 1 + R + ... + R^(terms - 1).
 MatrixXcd power_sum(const MatrixXcd& m, int terms) {
   MatrixXcd sum = MatrixXcd::Zero(m.rows(), m.cols());
-  for (int k = 0; k < terms; ++k) sum = MatrixXcd::Identity(m.rows(), m.cols()) + m * sum;
+  for (int k = 0; k < terms; ++k) sum = MatrixXcd::Identity(m.rows(), m.cols()) + times(m, sum);
   return sum;
 }
 
@@ -109,10 +112,10 @@ HexagonalBloch::Cell HexagonalBloch::cell(WaveVector k) const {
 
 HexagonalBloch::Matrix HexagonalBloch::converged_stiffness(const Cell& c) const {
   const Matrix kc = stiffness_.asDiagonal() * c.overlap;
-  if (!deformation_.active()) return c.overlap.adjoint() * kc;
+  if (!deformation_.active()) return times(c.overlap.adjoint(), kc);
   const Matrix kg = stiffness_.asDiagonal() * c.strain_overlap;
-  const Matrix inner = strain_stiffness_.cast<Complex>() + c.stress * kg;
-  return c.overlap.adjoint() * (kc - kg * inner.partialPivLu().solve(c.stress * kc));
+  const Matrix inner = strain_stiffness_.cast<Complex>() + times(c.stress, kg);
+  return times(c.overlap.adjoint(), kc - times(kg, inner.partialPivLu().solve(times(c.stress, kc))));
 }
 
 HexagonalBloch::Matrix HexagonalBloch::scaled_stiffness(WaveVector k) const {
@@ -158,18 +161,18 @@ HexagonalBloch::Matrix HexagonalBloch::lagged_map(const Cell& c, double dt) cons
   const int s = deformation_.evaluations;
   const Matrix kc = stiffness_.asDiagonal() * c.overlap, kg = stiffness_.asDiagonal() * c.strain_overlap;
   const Eigen::Matrix3d vc_inverse = strain_stiffness_.inverse();
-  const Matrix t = vc_inverse.cast<Complex>() * (c.stress * kg), h = vc_inverse.cast<Complex>() * (c.stress * kc);
+  const Matrix t = times(vc_inverse.cast<Complex>(), times(c.stress, kg)), h = times(vc_inverse.cast<Complex>(), times(c.stress, kc));
   const Matrix r = (1.0 - w) * Matrix::Identity(3, 3) - w * t;
   const Matrix push = -dt * dt * inverse_mass_.cast<Complex>().asDiagonal() * c.overlap.adjoint();
 
   const int n = dofs_;
   Matrix map = Matrix::Zero(2 * n + 3, 2 * n + 3);
-  map.block(n, 0, n, n) = push * (kc - kg * (w * power_sum(r, s - 1) * h));
+  map.block(n, 0, n, n) = times(push, kc - times(kg, times(w * power_sum(r, s - 1), h)));
   map.block(n, n, n, n) = Matrix::Identity(n, n);
-  map.block(n, 2 * n, n, 3) = -push * kg * power(r, s - 1);
+  map.block(n, 2 * n, n, 3) = -times(times(push, kg), power(r, s - 1));
   map.topRows(n) = map.middleRows(n, n);
   map.topLeftCorner(n, n) += Matrix::Identity(n, n);
-  map.block(2 * n, 0, 3, n) = w * power_sum(r, s) * h;
+  map.block(2 * n, 0, 3, n) = times(w * power_sum(r, s), h);
   map.block(2 * n, 2 * n, 3, 3) = power(r, s);
   return map;
 }

@@ -1,6 +1,7 @@
 #include "dem/spectra/dense_eigen.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <stdexcept>
 #include <string>
 
@@ -55,5 +56,14 @@ EigenPairs eigen_pairs(const Eigen::MatrixXcd& a, const char* what) {
   converged(solver, what);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
+
+Hessenberg hessenberg(const Eigen::MatrixXd& a) {
+  const Eigen::HessenbergDecomposition<Eigen::MatrixXd> reduced(a);
+  return {reduced.matrixH(), reduced.matrixQ()};
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a * b; }
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a.completeOrthogonalDecomposition().solve(b); }
 
 }  // namespace ddem

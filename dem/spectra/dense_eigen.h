@@ -1,5 +1,6 @@
 #pragma once
-// Eigenvalues of dense matrices by Eigen, compiled once: its solvers take longer to compile than all that call them.
+// Eigenvalues, products and least squares of dense matrices by Eigen, compiled once: they take longer to compile than all that
+// calls them.
 
 #include <Eigen/Core>
 
@@ -31,5 +32,16 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a, const char* what);
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXcd& a, const char* what);
 EigenPairs eigen_pairs(const Eigen::MatrixXd& a, const char* what);
 EigenPairs eigen_pairs(const Eigen::MatrixXcd& a, const char* what);
+
+/// `basis` * `form` * the basis transposed: a form of one row below the diagonal, an orthogonal basis.
+struct Hessenberg {
+  Eigen::MatrixXd form, basis;
+};
+Hessenberg hessenberg(const Eigen::MatrixXd& a);
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// The x of the least |a x - b|, column by column, and of several such x the smallest.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace ddem

@@ -1,6 +1,5 @@
 #include "dem/spectra/step_map.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -87,22 +86,23 @@ StepMode converged_mode(const Operators& op, double dt) {
 /// State (q_n, w_n, eps_n).
 MatrixXd lagged_map(const Operators& op, const DeformationParameters& d, double dt) {
   const MatrixXd c(op.overlap), g(op.strain_overlap), sk = MatrixXd(op.stress) * op.stiffness.asDiagonal();
-  const MatrixXd vc_inverse = MatrixXd(op.strain_stiffness).inverse();
   const Eigen::Index n = c.cols(), m = g.cols();
-  const MatrixXd h = d.relaxation * vc_inverse * (sk * c), t = vc_inverse * (sk * g);
+  MatrixXd vc_inverse(op.strain_stiffness);
+  for (Eigen::Index k = 0; k < m; k += 3) vc_inverse.block<3, 3>(k, k) = vc_inverse.block<3, 3>(k, k).inverse().eval();
+  const MatrixXd h = d.relaxation * product(vc_inverse, product(sk, c)), t = product(vc_inverse, product(sk, g));
   const MatrixXd r = (1.0 - d.relaxation) * MatrixXd::Identity(m, m) - d.relaxation * t;
   MatrixXd power = MatrixXd::Identity(m, m), sum = MatrixXd::Zero(m, m);  // R^(s-1), 1 + .. + R^(s-2)
-  for (int k = 1; k < d.evaluations; ++k) sum += power, power = r * power;
+  for (int k = 1; k < d.evaluations; ++k) sum += power, power = product(r, power);
 
   const MatrixXd push = -dt * dt * op.inverse_mass.asDiagonal() * c.transpose() * op.stiffness.asDiagonal();
   MatrixXd map = MatrixXd::Zero(2 * n + m, 2 * n + m);
-  map.block(n, 0, n, n) = push * (c - g * (sum * h));
+  map.block(n, 0, n, n) = product(push, c - product(g, product(sum, h)));
   map.block(n, n, n, n).setIdentity();
-  map.block(n, 2 * n, n, m) = -push * (g * power);
+  map.block(n, 2 * n, n, m) = -product(push, product(g, power));
   map.topRows(n) = map.middleRows(n, n);
   map.topLeftCorner(n, n) += MatrixXd::Identity(n, n);
-  map.block(2 * n, 0, m, n) = (sum + power) * h;
-  map.block(2 * n, 2 * n, m, m) = r * power;
+  map.block(2 * n, 0, m, n) = product(sum + power, h);
+  map.block(2 * n, 2 * n, m, m) = product(r, power);
   return map;
 }
 
@@ -128,15 +128,14 @@ Eigen::VectorXcd eigenvector_of(const MatrixXd& hessenberg, const Complex& facto
 }
 
 StepMode lagged_mode(const Operators& op, const DeformationParameters& deformation, double dt) {
-  const Eigen::HessenbergDecomposition<MatrixXd> reduced(lagged_map(op, deformation, dt));
-  const MatrixXd hessenberg = reduced.matrixH();
-  const Eigen::VectorXcd factors = eigenvalues(hessenberg, kStepMap);
+  const auto [form, basis] = hessenberg(lagged_map(op, deformation, dt));
+  const Eigen::VectorXcd factors = eigenvalues(form, kStepMap);
   Leader leader;
   for (Eigen::Index k = 0; k < factors.size(); ++k) leader.look(factors[k], k);
-  const Eigen::VectorXcd x = eigenvector_of(hessenberg, leader.factor());
-  MatrixXd parts(x.size(), 2);  // the reflections are real
+  const Eigen::VectorXcd x = eigenvector_of(form, leader.factor());
+  MatrixXd parts(x.size(), 2);  // the basis is real
   parts << x.real(), x.imag();
-  parts.applyOnTheLeft(reduced.matrixQ());
+  parts = product(basis, parts);
   const Eigen::VectorXcd state = parts.col(0) + Complex(0.0, 1.0) * parts.col(1);
   return {leader.factor(), scaled_to_one(state.head(op.overlap.cols()))};
 }

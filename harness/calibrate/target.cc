@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <charconv>
 #include <cmath>
 #include <vector>
 
+#include "dem/spectra/dense_eigen.h"
 #include "harness/io/errors.h"
 #include "harness/references/plane_elasticity.h"
 
@@ -121,13 +122,13 @@ Fit best_young(const std::vector<Equation>& equations, double nu, Plane plane) {
 
 /// Rows: d(model)/d(ln E, nu) in units of the uncertainty; and what is missing to the value.
 struct Linearised {
-  Eigen::MatrixX2d jacobian;
+  Eigen::MatrixXd jacobian;
   Eigen::VectorXd deviation;
 };
 
 Linearised linearise(const std::vector<Equation>& equations, const Fit& at, Plane plane) {
   const auto rows = static_cast<Eigen::Index>(equations.size());
-  Linearised l{Eigen::MatrixX2d(rows, 2), Eigen::VectorXd(rows)};
+  Linearised l{Eigen::MatrixXd(rows, 2), Eigen::VectorXd(rows)};
   for (Eigen::Index r = 0; r < rows; ++r) {
     const Equation& e = equations[r];
     const Model m = model_of(e.quantity, at.nu, plane);
@@ -149,7 +150,7 @@ Fit fit_solid(const std::vector<Equation>& equations, Plane plane) {
   }
   for (int n = 0; n < 50; ++n) {
     const Linearised l = linearise(equations, best, plane);
-    const Eigen::Vector2d step = l.jacobian.completeOrthogonalDecomposition().solve(l.deviation);
+    const Eigen::Vector2d step = least_squares(l.jacobian, l.deviation);
     double nu = best.nu + step[1];
     if (!(nu > -1.0 && nu < upper)) nu = 0.5 * (best.nu + (nu >= upper ? upper : -1.0));
     const double change = std::abs(nu - best.nu);
@@ -226,8 +227,7 @@ Eigen::Matrix2d covariance_of(const std::vector<Equation>& equations, const Fit&
   const Linearised l = linearise(equations, fit, plane);
   Eigen::VectorXd known(l.deviation.size());
   for (Eigen::Index r = 0; r < known.size(); ++r) known[r] = equations[r].known_sigma / equations[r].sigma;
-  const Eigen::MatrixXd gain =
-      l.jacobian.completeOrthogonalDecomposition().pseudoInverse() * known.asDiagonal();
+  const Eigen::MatrixXd gain = least_squares(l.jacobian, known.asDiagonal());
   return gain * gain.transpose();
 }
 

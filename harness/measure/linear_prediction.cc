@@ -1,6 +1,6 @@
 #include "harness/measure/linear_prediction.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -36,7 +36,7 @@ Prediction of_order(const Eigen::MatrixXd& y, Eigen::Index order) {
     total += size > 0.0 ? 1.0 : 0.0;
   }
   if (total == 0.0) return {};
-  const Eigen::VectorXd c = past.colPivHouseholderQr().solve(now);
+  const Eigen::VectorXd c = least_squares(past, now);
   Prediction p;
   p.residual = (past * c - now).norm() / std::sqrt(total);
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
@@ -50,14 +50,22 @@ Prediction of_order(const Eigen::MatrixXd& y, Eigen::Index order) {
 /// Takes out the factors that have no part in the signals: a recurrence of too high an order has roots anywhere.
 void keep_significant(const Eigen::MatrixXd& y, Prediction& p) {
   const Eigen::Index samples = y.cols(), order = static_cast<Eigen::Index>(p.factors.size());
-  // Each motion in units of its largest value in the window, so that the columns are of one size.
-  Eigen::MatrixXcd motions(samples, order);
+  // Each motion in units of its largest value in the window, so that the columns are of one size; complex ones as real ones of
+  // twice the size.
+  Eigen::MatrixXd motions(2 * samples, 2 * order);
   for (Eigen::Index j = 0; j < order; ++j) {
     const std::complex<double> z = p.factors[static_cast<std::size_t>(j)];
     const double from = std::abs(z) > 1.0 ? static_cast<double>(samples - 1) : 0.0;
-    for (Eigen::Index n = 0; n < samples; ++n) motions(n, j) = std::exp((static_cast<double>(n) - from) * std::log(z));
+    for (Eigen::Index n = 0; n < samples; ++n) {
+      const std::complex<double> motion = std::exp((static_cast<double>(n) - from) * std::log(z));
+      motions(n, j) = motions(samples + n, order + j) = motion.real();
+      motions(samples + n, j) = motion.imag(), motions(n, order + j) = -motion.imag();
+    }
   }
-  const Eigen::VectorXd parts = motions.colPivHouseholderQr().solve(y.transpose().cast<std::complex<double>>().eval()).rowwise().norm();
+  Eigen::MatrixXd measured = Eigen::MatrixXd::Zero(2 * samples, y.rows());
+  measured.topRows(samples) = y.transpose();
+  const Eigen::MatrixXd parts_of_both = least_squares(motions, measured);
+  const Eigen::VectorXd parts = (parts_of_both.topRows(order).cwiseAbs2() + parts_of_both.bottomRows(order).cwiseAbs2()).rowwise().sum().cwiseSqrt();
   std::vector<std::complex<double>> kept;
   for (Eigen::Index j = 0; j < order; ++j) {
     if (parts[j] >= kSignificant * parts.maxCoeff()) kept.push_back(p.factors[static_cast<std::size_t>(j)]);
