@@ -254,7 +254,7 @@ std::shared_ptr<const Solver> lammps_ddem_solver(const ReadyOptions& o) {
   d.name = "lammps-ddem";
   const std::string program = o.program.empty() ? lammps_ddem_program() : o.program;
   if (!fs::exists(program))
-    throw MachineError(program + " is missing: it was not built (it needs LAMMPS and MPI, Debian packages liblammps-dev and libopenmpi-dev)");
+    throw MachineError(program + " is missing: it was not built (ninja ddem-lammps in its build folder; it needs LAMMPS and MPI, Debian packages lammps, liblammps-dev and libopenmpi-dev)");
   d.ranks = o.ranks;
   d.command = launcher(o.ranks);
   for (const std::string& word : {program, std::string("-in"), std::string(kLammpsScript), std::string("-log"), std::string("none")}) d.command.push_back(word);
