@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <unsupported/Eigen/Polynomials>
 
 #include "dem/simulation/simulation.h"
 #include "dem/spectra/bloch.h"
+#include "dem/spectra/dense_eigen.h"
 #include "dem/spectra/spectra.h"
 #include "tests/support/assemblies.h"
 
@@ -55,10 +55,11 @@ std::vector<std::complex<double>> multipliers_of(const std::vector<double>& u, i
     for (int j = 0; j < order; ++j) past(n, j) = u[first + n + j];
     now[n] = u[first + n + order];
   }
-  Eigen::VectorXd polynomial(order + 1);
-  polynomial << -past.colPivHouseholderQr().solve(now), 1.0;
-  const Eigen::PolynomialSolver<double, Eigen::Dynamic> solver(polynomial);
-  return {solver.roots().begin(), solver.roots().end()};
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
+  companion.topRightCorner(order - 1, order - 1).setIdentity();
+  companion.row(order - 1) = least_squares(past, now).transpose();
+  const Eigen::VectorXcd roots = eigenvalues(companion, "linear prediction");
+  return {roots.begin(), roots.end()};
 }
 
 struct Lag {

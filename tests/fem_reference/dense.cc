@@ -1,9 +1,10 @@
 #include "tests/fem_reference/dense.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "dem/spectra/dense_eigen.h"
 
 namespace ddem::fem::test {
 
@@ -36,10 +37,10 @@ Modes modes(const ElasticOperator& stiffness, const std::vector<double>& inverse
       a(row, column) = result.root_inverse_mass[row] * force[result.free[row]] * result.root_inverse_mass[column];
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  const SymmetricPairs pairs = symmetric_pairs(a, "modes");
   for (Eigen::Index m = 0; m < size; ++m) {
-    result.squared_frequencies.push_back(solver.eigenvalues()[m]);
-    const auto vector = solver.eigenvectors().col(m);
+    result.squared_frequencies.push_back(pairs.values[m]);
+    const auto vector = pairs.vectors.col(m);
     result.vectors.emplace_back(vector.begin(), vector.end());
   }
   return result;

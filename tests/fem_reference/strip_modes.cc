@@ -1,8 +1,9 @@
 #include "tests/fem_reference/strip_modes.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "dem/spectra/dense_eigen.h"
 #include "fem_reference/kernel/gauss_lobatto.h"
 
 namespace ddem::fem::test {
@@ -47,14 +48,14 @@ StripModes::StripModes(const PlaneMaterial& m, double width, double k, int eleme
   }
   const Eigen::VectorXd root = mass(kept).cwiseSqrt();
   const Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * stiffness(kept, kept) * root.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  frequency_ = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const SymmetricPairs pairs = symmetric_pairs(scaled, "strip modes");
+  frequency_ = pairs.values.cwiseMax(0.0).cwiseSqrt();
   // The start is U = 1, V = 0; eigenvectors are orthonormal with the mass, hence mean and share are one product.
   Eigen::VectorXd start = Eigen::VectorXd::Zero(size);
   start.head(nodes) = root.head(nodes);
-  const Eigen::VectorXd share = solver.eigenvectors().transpose() * start;
+  const Eigen::VectorXd share = pairs.vectors.transpose() * start;
   mean_ = share.cwiseAbs2() / start.squaredNorm();
-  shape_ = root.head(nodes).cwiseInverse().asDiagonal() * solver.eigenvectors().topRows(nodes) * share.asDiagonal();
+  shape_ = root.head(nodes).cwiseInverse().asDiagonal() * pairs.vectors.topRows(nodes) * share.asDiagonal();
 }
 
 Eigen::VectorXd StripModes::at(double y) const {

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "dem/spectra/dense_eigen.h"
 #include "fem_reference/kernel/critical_step.h"
 #include "fem_reference/kernel/leapfrog.h"
 #include "tests/fem_reference/rectangle_mesh.h"
@@ -42,14 +43,13 @@ Eigen::MatrixXd dense_stiffness(const ElasticOperator& stiffness) {
   return dense;
 }
 
-// Of D^-1/2 A D^-1/2, ascending; `inverse` holds the diagonal of D^-1. One place that instantiates the
-// solver: it takes long to compile.
+// Of D^-1/2 A D^-1/2, ascending; `inverse` holds the diagonal of D^-1.
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd a, const std::vector<double>& inverse) {
   for (Eigen::Index column = 0; column < a.cols(); ++column) {
     for (Eigen::Index row = 0; row < a.rows(); ++row)
       a(row, column) *= std::sqrt(inverse[row] * inverse[column]);
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
+  return ddem::symmetric_eigenvalues(a, "time stepping");
 }
 
 class CriticalStep : public testing::TestWithParam<int> {};

@@ -1,10 +1,11 @@
 #pragma once
 // The vibrations of a small assembly by dense eigenvectors: functions of its frequencies, to compare time stepping with.
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <functional>
 
 #include "dem/simulation/simulation.h"
+#include "dem/spectra/dense_eigen.h"
 #include "dem/spectra/scheme_stiffness.h"
 #include "dem/statics/operators.h"
 
@@ -20,9 +21,9 @@ class DenseModes {
     stiffness_.resize(n, n);
     for (Eigen::Index k = 0; k < n; ++k) stiffness_.col(k) = stiffness.apply(Eigen::VectorXd::Unit(n, k));
     const Eigen::MatrixXd scaled = root_inverse_mass_.asDiagonal() * stiffness_ * root_inverse_mass_.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (scaled + scaled.transpose()));
-    frequencies_ = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    vectors_ = solver.eigenvectors();
+    const SymmetricPairs pairs = symmetric_pairs(0.5 * (scaled + scaled.transpose()), "dense modes");
+    frequencies_ = pairs.values.cwiseMax(0.0).cwiseSqrt();
+    vectors_ = pairs.vectors;
   }
 
   double largest_frequency() const { return frequencies_.maxCoeff(); }
