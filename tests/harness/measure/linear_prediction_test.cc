@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -52,6 +53,35 @@ TEST(LinearPrediction, LeavesOutRootsWithoutAMotion) {
   const Prediction p = predict_linearly(s, 0, 60, 1e-12);
   // 360 equations with a noise of 3e-8: 3e-8/sqrt(360), times 60 for the lever of a decay over the window.
   EXPECT_NEAR(p.largest(), 0.99, 1e-7);
+  EXPECT_EQ(p.factors.size(), 2u);
+}
+
+// Five factors ask for a recurrence of six, of which one root is no motion.
+TEST(LinearPrediction, LeavesOutTheRootThatCompletesAnOrder) {
+  const std::vector<Complex> factors = {std::polar(1.01, 0.3), std::polar(0.97, 1.1), Complex(0.9)};
+  const Prediction p = predict_linearly(motions(factors, 4, 40), 0, 40, 1e-10);
+  ASSERT_EQ(p.factors.size(), 5u);
+  for (const Complex& expected : factors) {
+    double nearest = 1.0;
+    for (const Complex& z : p.factors) nearest = std::min(nearest, std::abs(z - expected));
+    EXPECT_LT(nearest, 1e-10);
+  }
+}
+
+// Shares on both sides of 1e-4 of the largest, of motions that oscillate at every angle.
+TEST(LinearPrediction, KeepsAMotionByItsShare) {
+  for (const double angle : {0.2, 0.7, 1.5, 2.6}) {
+    for (const double share : {1.1e-4, 0.9e-4}) {
+      Signals s = motions({Complex(0.99)}, 1, 40);
+      for (std::vector<double>& signal : s) {
+        const double size = std::abs(signal[0]);  // that of the largest motion, which is real
+        // A pair of conjugate factors, each of half the amplitude.
+        for (std::size_t n = 0; n < signal.size(); ++n) signal[n] += 2.0 * share * size * std::cos(angle * static_cast<double>(n));
+      }
+      const Prediction p = predict_linearly(s, 0, 40, 1e-12);
+      EXPECT_EQ(p.factors.size(), share > 1e-4 ? 3u : 1u) << angle << ' ' << share;
+    }
+  }
 }
 
 TEST(LinearPrediction, OfNothingHasNoFactors) {
